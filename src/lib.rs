@@ -1,0 +1,15 @@
+//! Octolume: see how a dynamic scene becomes voxels, and what their accuracy costs.
+//!
+//! ```text
+//! glTF file ──► Scene ──► VoxelCache ──► VoxelPages ──► Octree ──► view
+//!           scene::load  stages::voxelize  stages::transform  stages::build   stages::view
+//!                        (once per object)  (per frame)        fill, average
+//! ```
+//!
+//! Modules in the order of the flow. The core knows nothing of egui: window and command line
+//! drive the same [`engine`] with the same [`settings`].
+
+pub mod scene;
+pub mod data;
+pub mod gpu;
+pub mod stages;
