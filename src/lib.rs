@@ -7,9 +7,10 @@
 //! ```
 //!
 //! Modules in the order of the flow. The core knows nothing of egui: window and command line
-//! drive the same [`engine`] with the same [`settings`].
+//! drive the same engine with the same settings.
 
-pub mod scene;
 pub mod data;
 pub mod gpu;
+pub mod progress;
+pub mod scene;
 pub mod stages;

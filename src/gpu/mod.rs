@@ -1,1 +1,1 @@
-//! (module docs)
+//! GPU plumbing.

@@ -1,1 +1,122 @@
-//! (module docs)
+//! What a file holds, in our words: nodes, meshes, materials, skins, clips. No GPU in here.
+//!
+//! Lengths are scene units (metres in glTF), angles radians, times seconds. Nodes are stored
+//! parents before children, so one forward pass poses them all.
+
+pub mod animation;
+pub mod builtin;
+pub mod camera;
+pub mod load;
+pub mod material;
+pub mod mesh;
+pub mod motion;
+pub mod pose;
+pub mod skin;
+
+use std::path::PathBuf;
+
+use glam::{DMat4, DQuat, DVec3};
+
+pub use animation::{Channel, Clip, Interpolation, Property};
+pub use camera::OrbitCamera;
+pub use material::{AlphaMode, Material, Texture, TextureRef, Wrap};
+pub use mesh::{Mesh, Primitive};
+pub use motion::{Motion, Object};
+pub use pose::Pose;
+pub use skin::Skin;
+
+/// One opened file. Immutable once loaded; everything that changes lives in a [`Pose`].
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    pub name: String,
+    /// `None` for a scene made in memory.
+    pub source: Option<PathBuf>,
+    pub nodes: Vec<Node>,
+    pub meshes: Vec<Mesh>,
+    pub materials: Vec<Material>,
+    pub textures: Vec<Texture>,
+    pub skins: Vec<Skin>,
+    pub clips: Vec<Clip>,
+    pub cameras: Vec<SceneCamera>,
+    pub lights: Vec<Light>,
+    /// Names of the glTF extensions the file uses.
+    pub extensions: Vec<String>,
+    /// What was repaired, left out or approximated, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// A place in the hierarchy. `parent` is always smaller than the node's own index.
+#[derive(Clone, Debug)]
+pub struct Node {
+    pub name: String,
+    pub parent: Option<usize>,
+    pub local: LocalTransform,
+    pub mesh: Option<usize>,
+    pub skin: Option<usize>,
+    pub camera: Option<usize>,
+    pub light: Option<usize>,
+}
+
+/// glTF gives a node either a matrix (never animated) or translation, rotation, scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LocalTransform {
+    Matrix(DMat4),
+    Trs(Trs),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trs {
+    pub translation: DVec3,
+    pub rotation: DQuat,
+    pub scale: DVec3,
+}
+
+impl Default for Trs {
+    fn default() -> Self {
+        Self { translation: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: DVec3::ONE }
+    }
+}
+
+impl Trs {
+    pub fn matrix(&self) -> DMat4 {
+        DMat4::from_scale_rotation_translation(self.scale, self.rotation, self.translation)
+    }
+}
+
+impl LocalTransform {
+    pub fn matrix(&self) -> DMat4 {
+        match self {
+            Self::Matrix(matrix) => *matrix,
+            Self::Trs(trs) => trs.matrix(),
+        }
+    }
+}
+
+/// A camera of the file; its pose is that of the node that carries it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneCamera {
+    pub name: String,
+    pub projection: Projection,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    Perspective { fov_y_radians: f64, near: f64, far: Option<f64> },
+    Orthographic { half_width: f64, half_height: f64, near: f64, far: f64 },
+}
+
+/// KHR_lights_punctual in its units: lux for directional, candela for point and spot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    pub name: String,
+    pub kind: LightKind,
+    pub color: [f32; 3],
+    pub intensity: f32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightKind {
+    Directional,
+    Point { range: Option<f32> },
+    Spot { range: Option<f32>, inner_cone_radians: f32, outer_cone_radians: f32 },
+}

@@ -1,1 +1,4 @@
-//! (module docs)
+//! The stages of the pipeline, a folder each, in flow order. In a stage, `X.rs` records the
+//! dispatch of `shaders/…/X.wgsl`, and `X_ref.rs` is its f64 reference, written from the paper.
+
+pub mod voxelize;

@@ -1,0 +1,1 @@
+//! The tests of the core: one module an area, one binary so that it links once.
