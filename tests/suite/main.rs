@@ -1,1 +1,4 @@
 //! The tests of the core: one module an area, one binary so that it links once.
+
+mod device;
+mod gpu;
