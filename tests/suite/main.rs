@@ -2,3 +2,4 @@
 
 mod device;
 mod gpu;
+mod shaders;
