@@ -11,6 +11,8 @@
 
 pub mod data;
 pub mod gpu;
+pub mod plan;
 pub mod progress;
 pub mod scene;
+pub mod settings;
 pub mod stages;
