@@ -3,3 +3,4 @@
 mod device;
 mod gpu;
 mod loading;
+mod shaders;
