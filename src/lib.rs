@@ -9,6 +9,8 @@
 //! Modules in the order of the flow. The core knows nothing of egui: window and command line
 //! drive the same engine with the same settings.
 
+#[cfg(feature = "gui")]
+pub mod app;
 pub mod data;
 pub mod gpu;
 pub mod plan;

@@ -1,0 +1,88 @@
+//! Opens scenes and voxelizes them while the window goes on showing the scene before. One job at a
+//! time: a new one cancels the old one.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::background::{Background, Outcome};
+use crate::prepare::{PrepareError, Prepared, prepare};
+use crate::progress::Progress;
+use crate::scene::{Scene, builtin, load};
+use crate::settings::Discretization;
+
+/// A scene ready to be shown, and what it was made for.
+#[derive(Clone)]
+pub struct Ready {
+    pub prepared: Arc<Prepared>,
+    pub discretization: Discretization,
+    /// Another scene than before, not another grid for the same one.
+    pub is_new: bool,
+}
+
+#[derive(Default)]
+pub struct Loader {
+    job: Option<Job>,
+}
+
+struct Job {
+    /// For the person: what is going on.
+    title: String,
+    discretization: Discretization,
+    work: Background<Result<Ready, Failure>>,
+}
+
+enum Failure {
+    Cancelled,
+    /// One sentence.
+    Cause(String),
+}
+
+impl Loader {
+    /// Opens a file, or a built-in scene by its name.
+    pub fn open(&mut self, ctx: &egui::Context, source: &Path, discretization: Discretization) {
+        let source = source.to_owned();
+        let title = format!("Opening {}", file_name(&source));
+        let work = Background::start(ctx, move |progress| {
+            let scene = Arc::new(open_scene(&source, progress)?);
+            voxelize(scene, discretization, None, progress)
+        });
+        self.job = Some(Job { title, discretization, work });
+    }
+
+    /// Voxelizes an open scene for another grid, span or mode.
+    pub fn discretize(&mut self, ctx: &egui::Context, open: &Arc<Prepared>, discretization: Discretization) {
+        if self.job.as_ref().is_some_and(|job| job.discretization.same_voxels(&discretization)) {
+            return;
+        }
+        let open = Arc::clone(open);
+        let title = format!("Voxelizing at {0}³", discretization.grid);
+        let work = Background::start(ctx, move |progress| {
+            voxelize(Arc::clone(&open.scene), discretization, Some(&open), progress)
+        });
+        self.job = Some(Job { title, discretization, work });
+    }
+
+    pub fn cancel(&mut self) {
+        self.job = None;
+    }
+
+    /// What is going on, and how far it is.
+    pub fn progress(&self) -> Option<(&str, f32)> {
+        self.job.as_ref().map(|job| (job.title.as_str(), job.work.fraction()))
+    }
+
+    /// The result, once; an error is one sentence.
+    pub fn poll(&mut self) -> Option<Result<Ready, String>> {
+        let outcome = self.job.as_ref()?.work.poll();
+        if outcome_is_open(&outcome) {
+            return None;
+        }
+        let title = self.job.take()?.title;
+        match outcome {
+            Outcome::Done(Ok(ready)) => Some(Ok(ready)),
+            Outcome::Done(Err(Failure::Cause(cause))) => Some(Err(cause)),
+            Outcome::Died => Some(Err(format!("{title} ended unexpectedly"))),
+            Outcome::Done(Err(Failure::Cancelled)) | Outcome::Running => None,
+        }
+    }
+}
