@@ -2,3 +2,5 @@
 
 mod device;
 mod gpu;
+mod voxelization;
+mod voxelization_payload;
