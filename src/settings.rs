@@ -67,6 +67,13 @@ pub enum Filter {
     Split,
 }
 
+impl Filter {
+    /// As the kernels' SPLIT override.
+    pub fn is_split(self) -> f64 {
+        f64::from(u8::from(self == Self::Split))
+    }
+}
+
 /// Which point of a cache voxel the transformation moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -4,6 +4,8 @@
 struct TransformParams {
     // N, cells along an axis.
     grid_cells: i32,
+    // Threads before this pass' own: rigid parts come first in the work list, then skinned ones.
+    first_thread: u32,
 }
 
 // grid_from_cache, row by row; the centre's half cell is folded into the translation on the CPU.
@@ -20,6 +22,7 @@ struct Part {
     first_matrix: u32,
     // Cache voxel minus joint record index; skinned parts only.
     joints_skew: u32,
+    // Object number in the scene.
     object: u32,
     pad0: u32,
     pad1: u32,

@@ -16,10 +16,11 @@ override WORKGROUP_SIZE: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    let index = thread_index(id, groups);
+    if index >= threads.end {
         return;
     }
+    let thread = params.first_thread + index;
     let item = work_item(thread);
     let part = parts[item.part];
     let voxel = cache_voxels[item.first_voxel + thread - item.first_thread];

@@ -43,10 +43,11 @@ fn blended_matrix(first_matrix: u32, first_word: u32) -> Matrix3x4 {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    let index = thread_index(id, groups);
+    if index >= threads.end {
         return;
     }
+    let thread = params.first_thread + index;
     let item = work_item(thread);
     let part = parts[item.part];
     let local = thread - item.first_thread;

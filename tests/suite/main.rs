@@ -4,3 +4,5 @@ mod device;
 mod gpu;
 mod voxelization;
 mod voxelization_payload;
+mod loading;
+mod shaders;
