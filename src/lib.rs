@@ -14,6 +14,7 @@ pub mod app;
 pub mod data;
 pub mod gpu;
 pub mod plan;
+pub mod prepare;
 pub mod progress;
 pub mod scene;
 pub mod settings;
