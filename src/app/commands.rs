@@ -7,8 +7,8 @@ use crate::settings::{Discretization, Look, MotionSettings};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Opens a file; `None`: the built-in scene.
-    Open(Option<PathBuf>),
+    /// Opens a file, or a built-in scene by its name.
+    Open(PathBuf),
     /// Lets the desktop's dialog choose one.
     ChooseFile,
     CancelLoading,

@@ -1,13 +1,14 @@
 //! Opens scenes and voxelizes them while the window goes on showing the scene before. One job at a
 //! time: a new one cancels the old one.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use super::background::{Background, Outcome};
 use crate::prepare::{PrepareError, Prepared, prepare};
 use crate::progress::Progress;
-use crate::scene::{Scene, builtin, load};
+use crate::scene::load::{self, LoadError};
+use crate::scene::{Scene, builtin};
 use crate::settings::Discretization;
 
 /// A scene ready to be shown, and what it was made for.
@@ -51,7 +52,7 @@ impl Loader {
 
     /// Voxelizes an open scene for another grid, span or mode.
     pub fn discretize(&mut self, ctx: &egui::Context, open: &Arc<Prepared>, discretization: Discretization) {
-        if self.job.as_ref().is_some_and(|job| job.discretization.same_voxels(&discretization)) {
+        if self.job.as_ref().is_some_and(|job| same_voxels(&job.discretization, &discretization)) {
             return;
         }
         let open = Arc::clone(open);
@@ -73,16 +74,50 @@ impl Loader {
 
     /// The result, once; an error is one sentence.
     pub fn poll(&mut self) -> Option<Result<Ready, String>> {
-        let outcome = self.job.as_ref()?.work.poll();
-        if outcome_is_open(&outcome) {
-            return None;
-        }
+        let outcome = match self.job.as_ref()?.work.poll() {
+            Outcome::Running => return None,
+            outcome => outcome,
+        };
         let title = self.job.take()?.title;
         match outcome {
             Outcome::Done(Ok(ready)) => Some(Ok(ready)),
             Outcome::Done(Err(Failure::Cause(cause))) => Some(Err(cause)),
-            Outcome::Died => Some(Err(format!("{title} ended unexpectedly"))),
+            Outcome::Died => Some(Err(format!("{title}: the work ended unexpectedly"))),
             Outcome::Done(Err(Failure::Cancelled)) | Outcome::Running => None,
         }
+    }
+}
+
+/// Whether two settings need the same voxel caches.
+pub fn same_voxels(a: &Discretization, b: &Discretization) -> bool {
+    (a.grid, a.span, a.mode) == (b.grid, b.span, b.mode)
+}
+
+/// The file's name, or all of a path that has none.
+pub fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn open_scene(source: &Path, progress: &Progress) -> Result<Scene, Failure> {
+    let opened = match source.to_str().and_then(builtin::bytes) {
+        Some(bytes) => load::open_bytes(&file_name(source), bytes, None, progress),
+        None => load::open(source, progress),
+    };
+    opened.map_err(|error| match error {
+        LoadError::Cancelled { .. } => Failure::Cancelled,
+        error => Failure::Cause(error.to_string()),
+    })
+}
+
+fn voxelize(
+    scene: Arc<Scene>,
+    discretization: Discretization,
+    open: Option<&Prepared>,
+    progress: &Progress,
+) -> Result<Ready, Failure> {
+    match prepare(scene, &discretization, open, progress) {
+        Ok(prepared) => Ok(Ready { prepared: Arc::new(prepared), discretization, is_new: open.is_none() }),
+        Err(PrepareError::Cancelled(_)) => Err(Failure::Cancelled),
+        Err(error) => Err(Failure::Cause(error.to_string())),
     }
 }
