@@ -29,6 +29,7 @@ struct Job {
     /// For the person: what is going on.
     title: String,
     discretization: Discretization,
+    opens: bool,
     work: Background<Result<Ready, Failure>>,
 }
 
@@ -47,7 +48,7 @@ impl Loader {
             let scene = Arc::new(open_scene(&source, progress)?);
             voxelize(scene, discretization, None, progress)
         });
-        self.job = Some(Job { title, discretization, work });
+        self.job = Some(Job { title, discretization, opens: true, work });
     }
 
     /// Voxelizes an open scene for another grid, span or mode.
@@ -60,7 +61,7 @@ impl Loader {
         let work = Background::start(ctx, move |progress| {
             voxelize(Arc::clone(&open.scene), discretization, Some(&open), progress)
         });
-        self.job = Some(Job { title, discretization, work });
+        self.job = Some(Job { title, discretization, opens: false, work });
     }
 
     pub fn cancel(&mut self) {
@@ -70,6 +71,11 @@ impl Loader {
     /// What is going on, and how far it is.
     pub fn progress(&self) -> Option<(&str, f32)> {
         self.job.as_ref().map(|job| (job.title.as_str(), job.work.fraction()))
+    }
+
+    /// A scene is being opened, which will replace the one that is open.
+    pub fn is_opening(&self) -> bool {
+        self.job.as_ref().is_some_and(|job| job.opens)
     }
 
     /// The result, once; an error is one sentence.

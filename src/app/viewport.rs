@@ -1,6 +1,6 @@
-//! The picture in the middle: shows the engine's image, and turns pointer and keys into camera moves.
+//! The picture in the middle: shows the engine's image, and turns the pointer's moves into those of the camera.
 
-use egui::{Key, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
+use egui::{PointerButton, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
 
 use super::commands::Command;
 use super::theme;
@@ -77,7 +77,7 @@ pub fn coarseness(ms_per_pixel: f64, full_px: [u32; 2]) -> u32 {
     [1, 2].into_iter().find(|&d| full_ms / f64::from(d * d) <= MOVING_BUDGET_MS).unwrap_or(4)
 }
 
-/// What pointer and keys over the view ask for.
+/// What the pointer over the view asks for.
 pub fn commands(ui: &Ui, response: &Response, camera: &OrbitCamera) -> Vec<Command> {
     let mut moved = *camera;
     drag(ui, response, &mut moved);
@@ -88,8 +88,7 @@ pub fn commands(ui: &Ui, response: &Response, camera: &OrbitCamera) -> Vec<Comma
             moved.zoom(factor);
         }
     }
-    let typing = ui.text_edit_focused();
-    if response.double_clicked() || !typing && ui.input(|input| input.key_pressed(Key::F)) {
+    if response.double_clicked() {
         return vec![Command::FrameAll];
     }
     if moved == *camera { Vec::new() } else { vec![Command::Camera(moved)] }

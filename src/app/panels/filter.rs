@@ -2,32 +2,22 @@
 
 use egui::{Align, Button, Color32, Layout, RichText, Ui, vec2};
 
-use super::{bytes, control, grouped, milliseconds};
+use super::{bytes, grouped, milliseconds};
 use crate::app::commands::Command;
 use crate::app::theme;
+use crate::engine::{AccuracyReport, FilterReport};
 use crate::settings::{Filter, Settings};
-
-/// What one filter costs in the pose on screen. Holes and spill are known once measured.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Cost {
-    pub kernel_ms: f64,
-    pub voxels: u64,
-    pub leaves: u64,
-    pub nodes: u64,
-    pub bytes: u64,
-    pub holes: Option<u64>,
-    pub spill: Option<u64>,
-}
 
 const NAME_WIDTH: f32 = 72.0;
 
-/// `costs`: of nearest and split; `exact_cells`: the size of the set that holes and spill are parts of.
-pub fn ui(ui: &mut Ui, settings: &Settings, costs: [Option<Cost>; 2], exact_cells: Option<u64>) -> Vec<Command> {
+/// `report`: of the pose on screen; the filter not shown is in it where both are measured.
+pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> Vec<Command> {
+    let costs = report.map_or([None, None], |report| [report.nearest, report.split]);
     let mut commands = Vec::new();
     ui.spacing_mut().item_spacing.y = 2.0;
     commands.extend(switch_ui(ui, settings));
     ui.add_space(3.0);
-    let rows: [(&str, &str, fn(&Cost) -> Option<String>); 7] = [
+    let rows: [(&str, &str, fn(&FilterReport) -> Option<String>); 7] = [
         ("GPU time", "Kernel milliseconds of a full rebuild with this filter.", |cost| {
             Some(format!("{} ms", milliseconds(cost.kernel_ms)))
         }),
@@ -42,8 +32,8 @@ pub fn ui(ui: &mut Ui, settings: &Settings, costs: [Option<Cost>; 2], exact_cell
         let values = costs.map(|cost| cost.as_ref().and_then(value));
         row_ui(ui, name, tip, values, settings.discretization.filter, row_color(name));
     }
-    if let Some(exact) = exact_cells {
-        let shares = |part: fn(&Cost) -> Option<u64>| {
+    if let Some(exact) = report.and_then(|report| report.exact_cells) {
+        let shares = |part: fn(&FilterReport) -> Option<u64>| {
             costs.map(|cost| cost.as_ref().and_then(part).map(|cells| percent(cells, exact)))
         };
         let missed = shares(|cost| cost.holes);
@@ -126,6 +116,6 @@ fn measure_ui(ui: &mut Ui, settings: &Settings) -> Option<Command> {
     let mut look = settings.look;
     let tip = "Builds with both filters and compares each with the exact voxelization of the pose. \
                Costs a second build on the GPU and a voxelization on the CPU for every pose.";
-    control(ui, "", tip, |ui| ui.checkbox(&mut look.accuracy, "Measure both filters"));
+    ui.checkbox(&mut look.accuracy, "Measure both filters").on_hover_text(tip);
     (look != settings.look).then_some(Command::Look(look))
 }

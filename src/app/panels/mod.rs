@@ -2,16 +2,16 @@
 //! comes back as commands. The helpers here give them one look.
 
 pub mod discretization;
-
+pub mod filter;
 pub mod log;
 pub mod memory;
-
+pub mod octree;
 pub mod plan;
-
+pub mod scene;
 pub mod table;
 pub mod timeline;
 pub mod timings;
-
+pub mod top_bar;
 pub mod view;
 
 use egui::{CollapsingHeader, Response, RichText, Role, Ui, WidgetInfo, vec2};

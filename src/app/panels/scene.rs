@@ -1,6 +1,6 @@
 //! Opening scenes, and what the open one holds.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use egui::{Grid, RichText, TextEdit, Ui};
 
@@ -121,11 +121,4 @@ fn warnings_ui(ui: &mut Ui, warnings: &[String]) {
 /// What the window's title calls a scene.
 pub fn window_title(scene: Option<&Prepared>) -> String {
     scene.map_or("Octolume".to_owned(), |prepared| format!("Octolume — {}", prepared.scene.name))
-}
-
-/// Puts a path first among the recent ones, and forgets what is beyond ten.
-pub fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
-    recent.retain(|old| old != path);
-    recent.insert(0, path.to_owned());
-    recent.truncate(10);
 }
