@@ -1,3 +1,4 @@
 //! The tests of the core: one module an area, one binary so that it links once.
 
+mod document;
 mod loading;
