@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 pub const F32: u32 = 5126;
 pub const U16: u32 = 5123;
 pub const U8: u32 = 5121;
+pub const I8: u32 = 5120;
 
 pub struct Document {
     pub json: Value,
