@@ -141,10 +141,10 @@ fn mirrored_objects_keep_a_positive_stretch() {
 fn singular_objects_are_hidden_and_named() {
     for hidden in [scaled(0.0, 0.0, 0.0), scaled(1.0, 0.0, 1.0), scaled(f64::NAN, 1.0, 1.0)] {
         let scene = cube_scene(hidden);
-        assert_eq!(scene.hidden_objects(), [0]);
+        assert_eq!(scene.motion_report(1.0).hidden, [0]);
         assert_eq!(only_object(&scene).stretch, DMat3::IDENTITY);
         assert_eq!(
-            scene.motion_warnings(1.0),
+            scene.motion_report(1.0).warnings(),
             ["object \"node\" is hidden: its matrix is singular or not finite at all times"]
         );
     }
@@ -156,7 +156,7 @@ fn singular_objects_are_hidden_and_named() {
         &[0.0, 1.0],
         &[0.0, 0.0, 0.0, 3.0, 3.0, 3.0],
     )]));
-    assert!(scene.hidden_objects().is_empty());
+    assert!(scene.motion_report(1.0).hidden.is_empty());
     assert_eq!(only_object(&scene).stretch, DMat3::from_diagonal(DVec3::splat(3.0)));
 }
 
@@ -185,7 +185,7 @@ fn half_a_cell_of_stretch_is_named() {
     assert_eq!(scene.stretching_objects(1.0), [(0, 0.5)], "half a cell counts");
     assert!(scene.stretching_objects(1.001).is_empty());
     assert_eq!(
-        scene.motion_warnings(0.25),
+        scene.motion_report(0.25).warnings(),
         ["object \"node\" stretches by up to 2.0 cells; it is moved with its mean stretch"]
     );
 }
