@@ -11,6 +11,9 @@
 
 pub mod data;
 pub mod gpu;
+pub mod plan;
+pub mod prepare;
 pub mod progress;
 pub mod scene;
+pub mod settings;
 pub mod stages;
