@@ -10,15 +10,14 @@ macro_rules! assert_near {
 
 mod animation;
 mod camera;
+mod device;
 mod document;
+mod gpu;
 mod loading;
 mod motion;
 mod parts;
 mod scenes;
-mod skinning;
-mod device;
-mod gpu;
-mod loading;
 mod shaders;
+mod skinning;
 mod voxelization;
 mod voxelization_payload;
