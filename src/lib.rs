@@ -12,6 +12,7 @@
 #[cfg(feature = "gui")]
 pub mod app;
 pub mod data;
+pub mod engine;
 pub mod gpu;
 pub mod plan;
 pub mod prepare;
