@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use crate::gpu::KernelTiming;
 
 /// Frames kept.
-const LENGTH: usize = 120;
+pub const LENGTH: usize = 120;
 
 #[derive(Default)]
 pub struct FrameHistory {

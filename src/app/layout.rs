@@ -1,17 +1,13 @@
 //! A frame of the window: panels from the outside in, the picture in the room that is left.
 
-use std::sync::Arc;
 use std::time::Instant;
 
-use egui::{Align2, FontId, Panel, Rect, RichText, ScrollArea, TextEdit, Ui, vec2};
+use egui::{Panel, ScrollArea, TextEdit, Ui};
 
 use super::commands::Command;
-use super::journal::Severity;
 use super::panels::top_bar::TopBar;
 use super::panels::{self, section};
-use super::{App, PROGRESS_STEP, exact_job, legend, shortcuts, theme, viewport};
-use crate::scene::OrbitCamera;
-use crate::settings::{Settings, View};
+use super::{App, shortcuts, theme};
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
@@ -54,7 +50,7 @@ impl App {
         });
         self.desk.unfolded.controls = open;
         let mut open = self.desk.unfolded.measurements;
-        Panel::right("measurements").default_size(330.0).size_range(260.0..=620.0).show_collapsible(ui, &mut open, |ui| {
+        Panel::right("measurements").default_size(350.0).size_range(260.0..=620.0).show_collapsible(ui, &mut open, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| commands.extend(self.measurements_ui(ui)));
         });
         self.desk.unfolded.measurements = open;

@@ -31,7 +31,7 @@ mod viewport;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use anyhow::anyhow;
 
@@ -46,8 +46,8 @@ use self::stage::Stage;
 use self::viewport::Viewport;
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
-use crate::scene::{Clip, OrbitCamera};
-use crate::settings::{MotionSettings, Settings, View};
+use crate::scene::Clip;
+use crate::settings::{MotionSettings, Settings};
 
 /// How often a progress bar is redrawn.
 const PROGRESS_STEP: Duration = Duration::from_millis(100);

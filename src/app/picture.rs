@@ -1,11 +1,11 @@
 //! The middle of the window: which picture is wanted now, how coarse it may be, and what lies over it.
 
-use std::sync::Arc;
 
 use egui::{Align2, FontId, Rect, Ui, vec2};
 
 use super::journal::Severity;
 use super::{App, PROGRESS_STEP, exact_job, legend, theme, viewport};
+use crate::gpu::GpuTexture;
 use crate::scene::OrbitCamera;
 use crate::settings::{Settings, View};
 
@@ -76,7 +76,7 @@ impl App {
             return;
         }
         let Some(ready) = &self.scene else { return self.screenshots.give_up() };
-        let ready_px = self.stage.engine.image().map(|image| [image.width(), image.height()]);
+        let ready_px = self.stage.engine.image().map(GpuTexture::size_px);
         if ready_px != Some(full_px) || self.exact.fraction().is_some() {
             return;
         }

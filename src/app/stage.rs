@@ -65,16 +65,15 @@ impl Stage {
         if size_px.contains(&0) || asked && !matches!(self.state, State::Working { .. }) {
             return Ok(());
         }
-        let was_working = matches!(self.state, State::Working { .. });
-        let advanced = self.ask(settings, size_px, asked).and_then(|()| self.engine.advance(BUDGET));
-        match advanced {
-            Ok(EngineState::Working { fraction }) => self.state = State::Working { fraction },
-            Ok(EngineState::Idle) => {
-                self.state = State::Idle;
-                if was_working {
-                    self.finish(size_px);
+        match self.ask(settings, size_px, asked).and_then(|()| self.engine.advance(BUDGET)) {
+            Ok(EngineState::Working { fraction }) => {
+                self.state = State::Working { fraction };
+                self.plan.clone_from(self.engine.plan());
+                if fraction >= 1.0 {
+                    self.finish();
                 }
             }
+            Ok(EngineState::Idle) => self.state = State::Idle,
             Err(error) => {
                 self.state = State::Failed { error: error.to_string() };
                 return Err(error.to_string());
@@ -111,13 +110,15 @@ impl Stage {
         self.ms_per_pixel
     }
 
-    fn finish(&mut self, size_px: [u32; 2]) {
+    /// Takes down what the frame has cost.
+    fn finish(&mut self) {
         self.timings = self.engine.timings();
         self.history.push(&self.timings);
         let view = self.timings.iter().filter(|timing| timing.kernel.starts_with("view/"));
         let view_ms: f64 = view.map(|timing| timing.ms).sum();
-        if view_ms > 0.0 {
-            self.ms_per_pixel = view_ms / (f64::from(size_px[0]) * f64::from(size_px[1]));
+        if let Some(image) = self.engine.image() {
+            let [width, height] = image.size_px().map(f64::from);
+            self.ms_per_pixel = view_ms / (width * height);
         }
     }
 }

@@ -15,7 +15,6 @@ pub const WEAK: Color32 = Color32::from_rgb(137, 145, 156);
 /// What is selected or runs.
 pub const ACCENT: Color32 = Color32::from_rgb(64, 178, 164);
 const ACCENT_DARK: Color32 = Color32::from_rgb(24, 92, 86);
-pub const GOOD: Color32 = Color32::from_rgb(120, 200, 130);
 pub const WARNING: Color32 = Color32::from_rgb(232, 184, 86);
 pub const ERROR: Color32 = Color32::from_rgb(238, 108, 98);
 /// Cells of the exact set that no moved voxel reached.
@@ -41,7 +40,8 @@ pub fn apply(ctx: &egui::Context) {
         spacing.item_spacing = vec2(6.0, 4.0);
         spacing.button_padding = vec2(7.0, 2.0);
         spacing.interact_size = vec2(28.0, 20.0);
-        spacing.indent = 10.0;
+        spacing.indent = 16.0;
+        spacing.slider_width = 130.0;
         spacing.menu_margin = Margin::same(5);
         spacing.tooltip_width = 320.0;
         spacing.scroll = egui::style::ScrollStyle::thin();

@@ -4,6 +4,7 @@ use egui::{PointerButton, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInf
 
 use super::commands::Command;
 use super::theme;
+use crate::gpu::GpuTexture;
 use crate::scene::OrbitCamera;
 
 /// A drag over the full height of the view turns by half a circle.
@@ -23,7 +24,7 @@ pub struct Viewport {
 
 impl Viewport {
     /// Takes all the room that is left. Returns the response of the picture's area.
-    pub fn ui(&mut self, ui: &mut Ui, render: &egui_wgpu::RenderState, image: Option<&wgpu::Texture>) -> Response {
+    pub fn ui(&mut self, ui: &mut Ui, render: &egui_wgpu::RenderState, image: Option<&GpuTexture>) -> Response {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "View of the scene"));
         ui.painter().rect_filled(rect, 0.0, theme::BACKGROUND);
@@ -40,25 +41,24 @@ impl Viewport {
     fn texture_id(
         &mut self,
         render: &egui_wgpu::RenderState,
-        image: &wgpu::Texture,
+        image: &GpuTexture,
         full_px: [u32; 2],
     ) -> egui::TextureId {
         match &self.shown {
-            Some((texture, id)) if texture == image => return *id,
+            Some((texture, id)) if texture == image.raw() => return *id,
             _ => {}
         }
-        let view = image.create_view(&wgpu::TextureViewDescriptor::default());
-        let coarse = [image.width(), image.height()] != full_px;
+        let coarse = image.size_px() != full_px;
         let filter = if coarse { wgpu::FilterMode::Linear } else { wgpu::FilterMode::Nearest };
         let mut renderer = render.renderer.write();
         let id = match self.shown {
             Some((_, id)) => {
-                renderer.update_egui_texture_from_wgpu_texture(&render.device, &view, filter, id);
+                renderer.update_egui_texture_from_wgpu_texture(&render.device, image.view(), filter, id);
                 id
             }
-            None => renderer.register_native_texture(&render.device, &view, filter),
+            None => renderer.register_native_texture(&render.device, image.view(), filter),
         };
-        self.shown = Some((image.clone(), id));
+        self.shown = Some((image.raw().clone(), id));
         id
     }
 }

@@ -3,6 +3,7 @@
 
 pub mod discretization;
 pub mod filter;
+pub mod icon;
 pub mod log;
 pub mod memory;
 pub mod octree;
@@ -14,7 +15,7 @@ pub mod timings;
 pub mod top_bar;
 pub mod view;
 
-use egui::{CollapsingHeader, Response, RichText, Role, Ui, WidgetInfo, vec2};
+use egui::{CollapsingHeader, Response, RichText, Ui, WidgetInfo, vec2};
 
 use super::commands::Command;
 use super::theme;
@@ -76,13 +77,6 @@ pub fn choice<T: PartialEq + Copy>(
     let mut changed = false;
     control(ui, name, tip, |ui| ui.horizontal(|ui| changed = switch(ui, value, options)).response);
     changed
-}
-
-/// A button that shows a symbol and is called by a name.
-pub fn symbol_button(ui: &mut Ui, symbol: &str, name: &str, tip: &str) -> Response {
-    let response = ui.add(egui::Button::new(symbol).min_size(vec2(26.0, 22.0)));
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
-    response.on_hover_text(tip)
 }
 
 /// Names a number that shows no name of its own.

@@ -23,13 +23,13 @@ pub fn ui(ui: &mut Ui, report: Option<&OctreeReport>, shown: Option<u32>) {
         total(sum(|level| level.dummies)),
         Cell::new(bytes(report.bytes)).color(theme::STRONG),
     ]);
-    let columns = [("level", 0.0), ("nodes", 66.0), ("occupied", 66.0), ("dummies", 62.0), ("size", 62.0)];
+    let columns = [("level", 0.0), ("nodes", 68.0), ("occupied", 62.0), ("dummies", 66.0), ("size", 64.0)];
     table::show(ui, "octree", &columns, rows);
     weights_ui(ui, report);
 }
 
 fn row(level: &LevelReport, shown: u32, deepest: u32) -> Vec<Cell> {
-    let name = if level.level == deepest { "leaves".to_owned() } else { level.level.to_string() };
+    let name = if level.level == deepest { "leaf".to_owned() } else { level.level.to_string() };
     let name = Cell::new(name).tip(format!("{0}³ cells", 1_u64 << level.level));
     vec![
         if level.level == shown { name.color(theme::ACCENT) } else { name },

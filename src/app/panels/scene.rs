@@ -117,8 +117,3 @@ fn warnings_ui(ui: &mut Ui, warnings: &[String]) {
         }
     });
 }
-
-/// What the window's title calls a scene.
-pub fn window_title(scene: Option<&Prepared>) -> String {
-    scene.map_or("Octolume".to_owned(), |prepared| format!("Octolume — {}", prepared.scene.name))
-}

@@ -1,6 +1,6 @@
 //! A dense table: the first column takes the room that is left, numbers are aligned right.
 
-use egui::{Align, Color32, Layout, RichText, Ui};
+use egui::{Align, Color32, Layout, Rect, RichText, Ui, vec2};
 use egui_extras::{Column, TableBuilder};
 
 use crate::app::theme;
@@ -11,11 +11,12 @@ pub struct Cell {
     text: String,
     color: Option<Color32>,
     tip: Option<String>,
+    bar: f32,
 }
 
 impl Cell {
     pub fn new(text: impl Into<String>) -> Self {
-        Self { text: text.into(), color: None, tip: None }
+        Self { text: text.into(), color: None, tip: None, bar: 0.0 }
     }
 
     pub fn color(self, color: Color32) -> Self {
@@ -26,7 +27,17 @@ impl Cell {
         Self { tip: Some(tip.into()), ..self }
     }
 
+    /// A bar behind the text, over this part of the cell's width.
+    pub fn bar(self, part: f32) -> Self {
+        Self { bar: part.clamp(0.0, 1.0), ..self }
+    }
+
     fn show(&self, ui: &mut Ui) {
+        if self.bar > 0.0 {
+            let cell = ui.max_rect();
+            let bar = Rect::from_x_y_ranges(cell.right() - self.bar * cell.width()..=cell.right(), cell.y_range());
+            ui.painter().rect_filled(bar.shrink2(vec2(0.0, 1.5)), 1.0, theme::ACCENT.gamma_multiply(0.45));
+        }
         let text = RichText::new(&self.text).color(self.color.unwrap_or(ui.visuals().text_color()));
         let label = ui.add(egui::Label::new(text).truncate().selectable(false));
         if let Some(tip) = &self.tip {

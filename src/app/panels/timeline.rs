@@ -2,7 +2,8 @@
 
 use egui::{Color32, ComboBox, DragValue, Slider, Ui};
 
-use super::{named_number, symbol_button};
+use super::icon::{self, Icon};
+use super::named_number;
 use crate::app::commands::Command;
 use crate::app::playback::Playback;
 use crate::scene::Clip;
@@ -57,14 +58,14 @@ fn clip_ui(ui: &mut Ui, clips: &[Clip], clip: Option<&Clip>, motion: &MotionSett
 fn transport_ui(ui: &mut Ui, playback: &Playback) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.spacing_mut().item_spacing.x = 2.0;
-    if symbol_button(ui, "⏮", "Step back", "One step of 1/30 s back (←).").clicked() {
+    if icon::button(ui, Icon::StepBack, "Step back", "One step of 1/30 s back (←).").clicked() {
         commands.push(Command::Step(-1));
     }
-    let (symbol, name) = if playback.is_playing() { ("⏸", "Pause") } else { ("▶", "Play") };
-    if symbol_button(ui, symbol, name, "Plays or pauses the clip (space).").clicked() {
+    let (icon, name) = if playback.is_playing() { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
+    if icon::button(ui, icon, name, "Plays or pauses the clip (space).").clicked() {
         commands.push(Command::TogglePlaying);
     }
-    if symbol_button(ui, "⏭", "Step forward", "One step of 1/30 s ahead (→).").clicked() {
+    if icon::button(ui, Icon::StepForward, "Step forward", "One step of 1/30 s ahead (→).").clicked() {
         commands.push(Command::Step(1));
     }
     ui.add_space(4.0);

@@ -5,7 +5,7 @@ use egui_plot::{Bar, BarChart, Plot};
 
 use super::table::{self, Cell};
 use super::{bytes, grouped, milliseconds, nothing};
-use crate::app::history::{FrameHistory, by_kernel, total_ms};
+use crate::app::history::{FrameHistory, LENGTH, by_kernel, total_ms};
 use crate::app::latency::Latency;
 use crate::app::theme;
 use crate::gpu::KernelTiming;
@@ -25,7 +25,7 @@ pub fn ui(ui: &mut Ui, timings: &[KernelTiming], history: &FrameHistory, latency
         Cell::new(""),
     ]];
     rows.extend(by_kernel(timings).iter().map(|kernel| row(kernel, total)));
-    table::show(ui, "timings", &[("kernel", 0.0), ("ms", 44.0), ("share", 42.0), ("GB/s", 44.0)], rows);
+    table::show(ui, "timings", &[("kernel", 0.0), ("ms", 44.0), ("share", 52.0), ("GB/s", 40.0)], rows);
 }
 
 fn latency_ui(ui: &mut Ui, latency: &Latency) {
@@ -54,6 +54,8 @@ fn history_ui(ui: &mut Ui, history: &FrameHistory) {
         .show_x(false)
         .show_axes([false, true])
         .y_axis_min_width(28.0)
+        .include_x(0.0)
+        .include_x(LENGTH as f64)
         .include_y(0.0)
         .show_grid([false, true])
         .set_margin_fraction(egui::vec2(0.01, 0.08));
@@ -70,10 +72,12 @@ fn row(kernel: &KernelTiming, total_ms: f64) -> Vec<Cell> {
         grouped(kernel.threads),
         bytes(kernel.bytes_moved)
     );
+    let is_copy = ["clear ", "copy "].iter().any(|kind| kernel.kernel.starts_with(kind));
+    let name = Cell::new(&kernel.kernel).color(if is_copy { theme::WEAK } else { theme::STRONG });
     vec![
-        Cell::new(&kernel.kernel).tip(tip),
+        name.tip(tip),
         milliseconds(kernel.ms).into(),
-        Cell::new(format!("{:.0} %", share * 100.0)).color(theme::WEAK),
+        Cell::new(format!("{:.0} %", share * 100.0)).bar(share as f32),
         if kernel.bytes_moved > 0 && rate.is_finite() { Cell::new(format!("{rate:.1}")) } else { Cell::new("–") },
     ]
 }
