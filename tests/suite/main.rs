@@ -2,7 +2,7 @@
 
 mod device;
 mod gpu;
-mod voxelization;
-mod voxelization_payload;
 mod loading;
 mod shaders;
+mod voxelization;
+mod voxelization_payload;
