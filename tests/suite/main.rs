@@ -1,1 +1,3 @@
 //! The tests of the core: one module an area, one binary so that it links once.
+
+mod builtin;
