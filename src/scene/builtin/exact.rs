@@ -70,3 +70,21 @@ pub fn turned(place: Trs, axis: DVec3, radians: f64) -> Trs {
 pub fn scaled(place: Trs, x: f64, y: f64, z: f64) -> Trs {
     Trs { scale: DVec3::new(x, y, z), ..place }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sines_have_the_same_bits_everywhere() {
+        assert_eq!(sin(1.0).to_bits(), 0x3FEA_ED54_8F09_0CEE);
+        assert_eq!(cos(1.0).to_bits(), 0x3FE1_4A28_0FB5_068C);
+        assert_eq!(atan2(1.0, 3.0).to_bits(), 0x3FD4_978F_A326_9EE1);
+    }
+
+    #[test]
+    fn rounding_gives_whole_steps_and_no_negative_zero() {
+        assert_eq!(rounded(0.1, 8192.0), 819.0 / 8192.0);
+        assert_eq!(rounded(-1e-9, 8192.0).to_bits(), 0.0_f32.to_bits());
+    }
+}

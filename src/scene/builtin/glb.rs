@@ -2,34 +2,31 @@
 //!
 //! [`GlbWriter`] grows the JSON document (`gltf::json`) and the binary chunk side by side; what
 //! it hands out are the document's own indices. Numbers are rounded to whole steps as they are
-//! written (see [`exact`](super::exact)). [`clip`](super::glb::ClipWriter) holds the animations.
+//! written (see [`exact`](super::exact)). Buffers and meshes are here, nodes, materials and clips
+//! in the modules below.
 
 mod clip;
 mod material;
+mod node;
 
 use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec3};
 use gltf::binary::{Glb, Header};
 use gltf::json::accessor::{Accessor, ComponentType, GenericComponentType, Type};
-use gltf::json::extensions;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::{Checked::Valid, USize64};
-use gltf::json::{Camera, Index, Material, Mesh, Node, Root, Scene, Skin, Value, buffer, camera, scene};
+use gltf::json::{Index, Material, Mesh, Node, Root, Scene, Value, buffer};
 
 use super::exact::{ROTATION_STEPS, STEPS, rounded};
 use super::shapes::Surface;
-use crate::scene::Trs;
 pub use clip::{ClipWriter, Track};
 pub use material::Paint;
-
-/// Names the colour, strength and direction of a sun.
-pub type JointIndex = u8;
 
 /// Up to four joints of a vertex; the weights are shares of 255 and sum to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Influence {
-    pub joints: [JointIndex; 4],
+    pub joints: [u8; 4],
     pub weights: [u8; 4],
 }
 
@@ -49,6 +46,7 @@ impl Part {
 }
 
 /// A file in the making.
+#[derive(Default)]
 pub struct GlbWriter {
     root: Root,
     bin: Vec<u8>,
@@ -56,12 +54,6 @@ pub struct GlbWriter {
 }
 
 impl GlbWriter {
-    pub fn new() -> Self {
-        let mut root = Root::default();
-        root.asset.generator = Some("Octolume".into());
-        Self { root, bin: Vec::new(), top_nodes: Vec::new() }
-    }
-
     /// Appends bytes to the binary chunk, aligned to 4.
     fn view(&mut self, bytes: &[u8], target: Option<buffer::Target>) -> Index<buffer::View> {
         self.bin.resize(self.bin.len().next_multiple_of(4), 0);
@@ -184,90 +176,6 @@ impl GlbWriter {
         }
     }
 
-    /// Adds a node under `parent`, or at the top of the scene.
-    pub fn node(&mut self, parent: Option<Index<Node>>, name: &str, place: Trs) -> Index<Node> {
-        let index = self.root.push(Node { name: Some(name.into()), ..placed(place) });
-        match parent {
-            Some(parent) => self.root.nodes[parent.value()].children.get_or_insert_default().push(index),
-            None => self.top_nodes.push(index),
-        }
-        index
-    }
-
-    /// Adds a node that shows a mesh.
-    pub fn show(&mut self, parent: Option<Index<Node>>, name: &str, mesh: Index<Mesh>, place: Trs) -> Index<Node> {
-        let index = self.node(parent, name, place);
-        self.root.nodes[index.value()].mesh = Some(mesh);
-        index
-    }
-
-    /// Binds the mesh that a node shows to a skin.
-    pub fn bind_skin(&mut self, node: Index<Node>, skin: Index<Skin>) {
-        self.root.nodes[node.value()].skin = Some(skin);
-    }
-
-    /// A skin whose joints were bound at the given points, unturned.
-    pub fn skin(&mut self, name: &str, joints: &[Index<Node>], bind_points: &[DVec3]) -> Index<Skin> {
-        let joint_from_mesh: Vec<[f32; 16]> = bind_points
-            .iter()
-            .map(|&point| {
-                let [x, y, z] = float3(-point);
-                [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, x, y, z, 1.0]
-            })
-            .collect();
-        let matrices = self.floats(&joint_from_mesh, None, false);
-        self.root.push(Skin {
-            name: Some(name.into()),
-            joints: joints.to_vec(),
-            inverse_bind_matrices: Some(matrices),
-            skeleton: joints.first().copied(),
-            extensions: None,
-            extras: None,
-        })
-    }
-
-    /// A sun that shines along the node's −Z. `illuminance_lux` is KHR_lights_punctual's unit.
-    pub fn sun(&mut self, name: &str, place: Trs, color: [f32; 3], illuminance_lux: f32) -> Index<Node> {
-        let light = extensions::scene::khr_lights_punctual::Light {
-            color,
-            intensity: illuminance_lux,
-            name: Some(name.into()),
-            range: None,
-            spot: None,
-            type_: Valid(extensions::scene::khr_lights_punctual::Type::Directional),
-            extensions: None,
-            extras: None,
-        };
-        let lights = &mut self.root.extensions.get_or_insert_default().khr_lights_punctual;
-        let light = Index::push(&mut lights.get_or_insert_default().lights, light);
-        let node = self.node(None, name, place);
-        self.root.nodes[node.value()].extensions = Some(scene_node_light(light));
-        self.use_extension("KHR_lights_punctual");
-        node
-    }
-
-    /// A camera that looks along the node's −Z.
-    pub fn camera(&mut self, name: &str, place: Trs, fov_y_radians: f32) -> Index<Node> {
-        let camera = self.root.push(Camera {
-            name: Some(name.into()),
-            orthographic: None,
-            perspective: Some(camera::Perspective {
-                aspect_ratio: None,
-                yfov: fov_y_radians,
-                zfar: Some(100.0),
-                znear: 0.05,
-                extensions: None,
-                extras: None,
-            }),
-            type_: Valid(camera::Type::Perspective),
-            extensions: None,
-            extras: None,
-        });
-        let node = self.node(None, name, place);
-        self.root.nodes[node.value()].camera = Some(camera);
-        node
-    }
-
     fn use_extension(&mut self, name: &str) {
         if !self.root.extensions_used.iter().any(|used| used == name) {
             self.root.extensions_used.push(name.into());
@@ -277,6 +185,7 @@ impl GlbWriter {
     /// The file's bytes.
     pub fn finish(mut self, name: &str) -> Vec<u8> {
         self.bin.resize(self.bin.len().next_multiple_of(4), 0);
+        self.root.asset.generator = Some("Octolume".into());
         let byte_length = USize64::from(self.bin.len());
         self.root.push(buffer::Buffer { byte_length, name: None, uri: None, extensions: None, extras: None });
         let nodes = std::mem::take(&mut self.top_nodes);
@@ -290,27 +199,10 @@ impl GlbWriter {
     }
 }
 
-fn scene_node_light(light: Index<extensions::scene::khr_lights_punctual::Light>) -> extensions::scene::Node {
-    extensions::scene::Node {
-        khr_lights_punctual: Some(extensions::scene::khr_lights_punctual::KhrLightsPunctual { light }),
-        ..Default::default()
-    }
-}
-
 pub(super) fn float3(value: DVec3) -> [f32; 3] {
     value.to_array().map(|component| rounded(component, STEPS))
 }
 
 pub(super) fn float4(rotation: DQuat) -> [f32; 4] {
     rotation.to_array().map(|component| rounded(component, ROTATION_STEPS))
-}
-
-/// A node's transform; what is the default is left out.
-fn placed(place: Trs) -> Node {
-    Node {
-        translation: (place.translation != DVec3::ZERO).then(|| float3(place.translation)),
-        rotation: (place.rotation != DQuat::IDENTITY).then(|| scene::UnitQuaternion(float4(place.rotation))),
-        scale: (place.scale != DVec3::ONE).then(|| float3(place.scale)),
-        ..Node::default()
-    }
 }

@@ -178,3 +178,42 @@ pub fn wave(place: DVec3, heading_radians: f64, time_secs: f64, length_secs: f64
     }
     pose
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::builtin::character::skeleton::COUNT;
+
+    const PATH: Circle = Circle { radius_m: 2.2, lap_secs: 10.0, strides: 11.0, start_radians: 0.3 };
+
+    /// While a foot lies flat (shares 0.10 to 0.36 of its stride) its ankle stays where it is.
+    #[test]
+    fn planted_feet_do_not_slide() {
+        let stride_secs = PATH.lap_secs / PATH.strides;
+        for (side, late) in [(0, 0.0), (SIDE, 0.5)] {
+            let ankle = |share: f64| PATH.pose((3.0 + late + share) * stride_secs).world(FOOT + side).1;
+            let planted = ankle(0.10);
+            for share in [0.15, 0.2, 0.25, 0.3, 0.36] {
+                assert!(ankle(share).distance(planted) < 1e-9, "{share}: {} from {planted}", ankle(share));
+            }
+            assert!((planted.y - JOINTS[FOOT].at().y).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn feet_stay_above_the_ground_and_bones_keep_their_lengths() {
+        for step in 0..400 {
+            let pose = PATH.pose(10.0 * f64::from(step) / 400.0);
+            for joint in 0..COUNT {
+                let (_, place) = pose.world(joint);
+                assert!(place.y > if joint == ROOT { -1e-12 } else { 0.01 }, "joint {joint} at {place}");
+            }
+            for joint in [SHIN, FOOT, SHIN + SIDE, FOOT + SIDE] {
+                let parent = JOINTS[joint].parent.expect("a limb");
+                let length = pose.world(joint).1.distance(pose.world(parent).1);
+                let bind = JOINTS[joint].at().distance(JOINTS[parent].at());
+                assert!((length - bind).abs() < 1e-9);
+            }
+        }
+    }
+}

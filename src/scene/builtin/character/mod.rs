@@ -6,6 +6,7 @@
 
 pub mod body;
 pub mod gait;
+mod limbs;
 pub mod skeleton;
 mod weights;
 

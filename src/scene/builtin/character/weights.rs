@@ -50,7 +50,7 @@ pub fn torso(point: DVec3) -> Shares {
 pub fn skirt(point: DVec3) -> Shares {
     let right = smoothstep(0.11, -0.11, point.x);
     let thighs = mixed(only(THIGH), only(THIGH + SIDE), right);
-    mixed(only(PELVIS), thighs, 0.85 * smoothstep(0.98, 0.66, point.y))
+    mixed(only(PELVIS), thighs, 0.92 * smoothstep(0.98, 0.80, point.y))
 }
 
 pub fn head(point: DVec3) -> Shares {

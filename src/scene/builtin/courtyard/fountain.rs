@@ -19,7 +19,10 @@ pub fn add(glb: &mut GlbWriter, palette: &Palette, walk: &mut ClipWriter) {
     let group = glb.node(None, "fountain", at(0.0, 0.0, 0.0));
     let basin = basin().shaded(38.0);
     let water = Shape::joined([lathe(&[[1.12, 0.44], [0.0, 0.44]], 40), lathe(&[[0.47, 1.275], [0.0, 1.275]], 24)]);
-    let mesh = glb.mesh("basin", &[Part::new(basin, palette.stone), Part::new(water.shaded(30.0), palette.water)]);
+    let mesh = glb.mesh(
+        "basin",
+        &[Part::new(basin, palette.masonry.stone), Part::new(water.shaded(30.0), palette.fittings.water)],
+    );
     glb.show(Some(group), "basin", mesh, at(0.0, 0.0, 0.0));
     add_armillary(glb, palette, group, walk);
 }
@@ -74,56 +77,59 @@ fn basin() -> Shape {
     Shape::joined([step, bowl, stem])
 }
 
-/// A fixed hoop; in it a hoop that turns about the vertical pins; in that a heart that turns
-/// about a level axle. A vane on top points to the next of twelve marks every so often.
+/// A fixed hoop; in it a ring that turns about upright pins; in that a heart that turns about a
+/// level axle. A vane on top points to another of twelve marks every second.
 fn add_armillary(glb: &mut GlbWriter, palette: &Palette, group: Index<Node>, walk: &mut ClipWriter) {
+    let fittings = &palette.fittings;
+    let hoop = glb.mesh("hoop", &[Part::new(hoop().shaded(40.0), fittings.iron)]);
+    let hoop = glb.show(Some(group), "hoop", hoop, at(0.0, HEART, 0.0));
+
+    let axle = cylinder(0.018, 2.0 * RING, 10).moved(0.0, -RING, 0.0).turned(DVec3::Z, PI / 2.0).shaded(40.0);
+    let ring = [Part::new(ring().shaded(40.0), fittings.bronze), Part::new(axle, fittings.iron)];
+    let ring = glb.mesh("turning ring", &ring);
+    let ring = glb.show(Some(hoop), "turning ring", ring, at(0.0, 0.0, 0.0));
+    turn_evenly(walk, ring, DVec3::Y, 2);
+
+    let heart = icosphere(0).scaled(0.31, 0.31, 0.31).shaded(20.0);
+    let collar = cylinder(0.05, 0.60, 16).moved(0.0, -0.30, 0.0).turned(DVec3::Z, PI / 2.0).shaded(40.0);
+    let heart = glb.mesh("heart", &[Part::new(heart, fittings.silver), Part::new(collar, fittings.bronze)]);
+    let heart = glb.show(Some(ring), "heart", heart, at(0.0, 0.0, 0.0));
+    turn_evenly(walk, heart, DVec3::X, 3);
+
+    let vane = glb.mesh("vane", &[Part::new(vane().shaded(40.0), fittings.bronze)]);
+    let vane = glb.show(Some(hoop), "vane", vane, at(0.0, RING + 0.37, 0.0));
+    let marks = [0, 3, 5, 4, 8, 11, 10, 6, 7, 2, 0];
+    let times: Vec<f64> = (0..marks.len()).map(|mark| WALK_SECS * mark as f64 / (marks.len() - 1) as f64).collect();
+    let keys = marks.iter().map(|&mark| turn(DVec3::Y, TAU * f64::from(mark) / 12.0)).collect();
+    walk.track(vane, &times, Track::SteppedRotation(keys));
+}
+
+/// The fixed hoop with its foot, the pins for the ring and the rod for the vane.
+fn hoop() -> Shape {
     let hoop = torus(RING + 0.13, 0.035, 40, 8).turned(DVec3::X, PI / 2.0);
     let pins = [-1.0, 1.0].map(|side| cylinder(0.022, 0.14, 10).moved(0.0, side * (RING + 0.06) - 0.07, 0.0));
     let foot = lathe(&[[0.10, -0.86], [0.05, -RING - 0.20], [0.06, -RING - 0.15]], 16);
-    let crown = cylinder(0.018, 0.22, 8).moved(0.0, RING + 0.14, 0.0);
-    let frame = Shape::joined([hoop, foot, crown].into_iter().chain(pins));
-    let frame = glb.mesh("hoop", &[Part::new(frame.shaded(40.0), palette.iron)]);
-    let frame = glb.show(Some(group), "hoop", frame, at(0.0, HEART, 0.0));
+    let rod = cylinder(0.018, 0.22, 8).moved(0.0, RING + 0.14, 0.0);
+    Shape::joined([hoop, foot, rod].into_iter().chain(pins))
+}
 
+/// A ring with studs, so that one sees it turn.
+fn ring() -> Shape {
     let ring = torus(RING, 0.05, 40, 10).turned(DVec3::X, PI / 2.0);
     let studs = (0..8).map(|index| {
-        let at = DVec3::X * RING;
-        sphere(8, 5)
-            .scaled(0.035, 0.035, 0.075)
-            .moved(at.x, at.y, at.z)
-            .turned(DVec3::Z, TAU * (f64::from(index) + 0.5) / 8.0)
+        let angle = TAU * (f64::from(index) + 0.5) / 8.0;
+        sphere(6, 4).scaled(0.035, 0.035, 0.075).moved(RING, 0.0, 0.0).turned(DVec3::Z, angle)
     });
-    let ring = Shape::joined([ring].into_iter().chain(studs));
-    let axle = cylinder(0.018, 2.0 * RING, 10).moved(0.0, -RING, 0.0).turned(DVec3::Z, PI / 2.0);
-    let ring = glb.mesh(
-        "turning ring",
-        &[Part::new(ring.shaded(40.0), palette.bronze), Part::new(axle.shaded(40.0), palette.iron)],
-    );
-    let ring = glb.show(Some(frame), "turning ring", ring, at(0.0, 0.0, 0.0));
+    Shape::joined([ring].into_iter().chain(studs))
+}
 
-    let heart = icosphere(0).scaled(0.31, 0.31, 0.31);
-    let collar = cylinder(0.05, 0.60, 16).moved(0.0, -0.30, 0.0).turned(DVec3::Z, PI / 2.0);
-    let heart = glb.mesh(
-        "heart",
-        &[Part::new(heart.shaded(20.0), palette.silver), Part::new(collar.shaded(40.0), palette.bronze)],
-    );
-    let heart = glb.show(Some(ring), "heart", heart, at(0.0, 0.0, 0.0));
-
-    let arrow = bevelled_block(0.42, 0.02, 0.03, 0.006).moved(0.05, 0.0, 0.0);
-    let tip =
-        lathe(&[[0.05, 0.0], [0.0, 0.14]], 4).scaled(1.0, 1.0, 0.4).turned(DVec3::Z, -PI / 2.0).moved(0.25, 0.0, 0.0);
+/// An arrow that points along +X.
+fn vane() -> Shape {
+    let shaft = bevelled_block(0.42, 0.02, 0.03, 0.006).moved(0.05, 0.0, 0.0);
+    let tip = lathe(&[[0.0, 0.0], [0.05, 0.0], [0.0, 0.14]], 4).scaled(1.0, 1.0, 0.4);
     let tail = bevelled_block(0.12, 0.10, 0.014, 0.005).moved(-0.17, 0.0, 0.0);
     let knob = sphere(12, 8).scaled(0.04, 0.04, 0.04);
-    let vane = Shape::joined([arrow, tip, tail, knob]);
-    let vane = glb.mesh("vane", &[Part::new(vane.shaded(40.0), palette.bronze)]);
-    let vane = glb.show(Some(frame), "vane", vane, at(0.0, RING + 0.37, 0.0));
-
-    turn_evenly(walk, ring, DVec3::Y, 2);
-    turn_evenly(walk, heart, DVec3::X, 3);
-    let times: Vec<f64> = (0..=10).map(f64::from).collect();
-    let marks = [0, 3, 5, 4, 8, 11, 10, 6, 7, 2, 0];
-    let keys = marks.iter().map(|&mark| turn(DVec3::Y, TAU * f64::from(mark) / 12.0)).collect();
-    walk.track(vane, &times, Track::SteppedRotation(keys));
+    Shape::joined([shaft, tip.turned(DVec3::Z, -PI / 2.0).moved(0.25, 0.0, 0.0), tail, knob])
 }
 
 /// Whole turns over the clip, in eighths that LINEAR interpolation joins without a kink.

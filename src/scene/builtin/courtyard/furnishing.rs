@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::super::exact::{PI, TAU, at, cos, scaled, sin, smoothstep, turn, turned};
+use super::super::exact::{PI, TAU, at, atan2, cos, scaled, sin, smoothstep, turn, turned};
 use super::super::glb::{ClipWriter, GlbWriter, Part, Track};
 use super::super::shapes::Shape;
 use super::super::shapes::architecture::{Drape, cloth};
@@ -42,7 +42,7 @@ fn add_banners(glb: &mut GlbWriter, palette: &Palette) {
     let group = glb.node(None, "banners", at(0.0, 0.0, 0.0));
     let rod =
         cylinder(0.022, 2.0 * ARCH_RADIUS + 0.2, 10).moved(0.0, -ARCH_RADIUS - 0.1, 0.0).turned(DVec3::Z, PI / 2.0);
-    let rod = Part::new(rod.shaded(40.0), palette.iron);
+    let rod = Part::new(rod.shaded(40.0), palette.fittings.iron);
     let mut meshes = Vec::new();
     for (index, &material) in palette.banners.iter().enumerate() {
         let drape = Drape {
@@ -73,8 +73,8 @@ fn lantern(palette: &Palette, chain_m: f64) -> [Part; 2] {
     let cage = [chain, cap.moved(0.0, -chain_m - 0.12, 0.0), base.moved(0.0, -chain_m - 0.47, 0.0)];
     let glass = lathe(&[[0.10, 0.0], [0.115, 0.16], [0.10, 0.32]], 6).moved(0.0, -chain_m - 0.45, 0.0);
     [
-        Part::new(Shape::joined(cage.into_iter().chain(bars)).shaded(30.0), palette.iron),
-        Part::new(glass.shaded(30.0), palette.lamp),
+        Part::new(Shape::joined(cage.into_iter().chain(bars)).shaded(30.0), palette.fittings.iron),
+        Part::new(glass.shaded(30.0), palette.fittings.lamp),
     ]
 }
 
@@ -120,8 +120,8 @@ fn add_pots(glb: &mut GlbWriter, palette: &Palette) {
         ],
         18,
     );
-    let pot = Part::new(pot.shaded(40.0), palette.clay);
-    let tree = Shape::grid(14, 12, |u, v| {
+    let pot = Part::new(pot.shaded(40.0), palette.fittings.clay);
+    let tree = Shape::grid(12, 10, |u, v| {
         let (angle, up) = (TAU * if u == 1.0 { 0.0 } else { u }, v);
         let bump = 1.0 + 0.09 * sin(5.0 * angle + 9.0 * up) * sin(16.0 * up + 2.0 * angle);
         let radius = 0.25 * bump * smoothstep(-0.02, 0.22, up) * smoothstep(1.06, 0.2, up);
@@ -130,7 +130,11 @@ fn add_pots(glb: &mut GlbWriter, palette: &Palette) {
     let trunk = cylinder(0.03, 0.2, 8).moved(0.0, 0.40, 0.0);
     let mesh = glb.mesh(
         "cypress",
-        &[pot, Part::new(tree.shaded(60.0), palette.leaves), Part::new(trunk.shaded(40.0), palette.wood)],
+        &[
+            pot,
+            Part::new(tree.shaded(60.0), palette.fittings.leaves),
+            Part::new(trunk.shaded(40.0), palette.masonry.wood),
+        ],
     );
     let places = [(-3.45, 5.9, 1.0), (-3.5, -3.75, 1.15), (3.5, -3.75, 1.0), (3.45, 2.0, 0.9)];
     for (index, (x, z, height)) in places.into_iter().enumerate() {
@@ -141,29 +145,37 @@ fn add_pots(glb: &mut GlbWriter, palette: &Palette) {
 /// A lion's head that looks a little to +X, a ring in its mouth; the wall is at z = 0.
 fn lion(palette: &Palette) -> [Part; 2] {
     let lump = |x: f64, y: f64, z: f64, size: [f64; 3]| {
-        icosphere(if size[0] > 0.1 { 2 } else { 1 }).scaled(size[0], size[1], size[2]).moved(x, y, z)
+        icosphere(if size[0] > 0.12 { 2 } else { 1 }).scaled(size[0], size[1], size[2]).moved(x, y, z)
     };
-    let mane = sphere(33, 6).turned(DVec3::X, PI / 2.0).mapped(|point| {
-        let radius = point.truncate().length();
-        let lock = 1.0 + 0.16 * radius * cos(11.0 * super::super::exact::atan2(point.y, point.x));
-        DVec3::new(point.x * 0.27 * lock, point.y * 0.29 * lock, 0.05 + 0.09 * point.z)
-    });
+    // Two layers of rounded locks, the inner one between those of the outer.
+    let mane = |reach: f64, z: f64, phase: f64| {
+        sphere(36, 5).turned(DVec3::X, PI / 2.0).mapped(|point| {
+            let radius = point.truncate().length();
+            let lock = 1.0 + 0.13 * radius * sin(9.0 * atan2(point.y, point.x) + phase);
+            DVec3::new(point.x * reach * lock, point.y * reach * lock - 0.01, z + 0.08 * point.z)
+        })
+    };
+    let brow = |side: f64| {
+        lump(0.0, 0.0, 0.0, [0.062, 0.024, 0.035]).turned(DVec3::Z, side * 0.35).moved(side * 0.075, 0.085, 0.205)
+    };
     let face = Shape::joined([
-        lump(0.0, 0.02, 0.12, [0.165, 0.185, 0.11]),
-        lump(0.0, -0.055, 0.205, [0.085, 0.070, 0.075]),
-        lump(0.0, -0.012, 0.245, [0.040, 0.028, 0.045]),
-        lump(0.0, -0.115, 0.185, [0.055, 0.038, 0.060]),
-        lump(-0.065, 0.075, 0.190, [0.055, 0.022, 0.040]),
-        lump(0.065, 0.075, 0.190, [0.055, 0.022, 0.040]),
-        lump(-0.145, 0.165, 0.09, [0.05, 0.06, 0.035]),
-        lump(0.145, 0.165, 0.09, [0.05, 0.06, 0.035]),
+        lump(0.0, 0.03, 0.13, [0.165, 0.165, 0.10]),
+        lump(0.0, 0.02, 0.215, [0.042, 0.105, 0.045]),
+        lump(0.0, -0.045, 0.262, [0.050, 0.026, 0.030]),
+        lump(-0.050, -0.085, 0.220, [0.068, 0.052, 0.062]),
+        lump(0.050, -0.085, 0.220, [0.068, 0.052, 0.062]),
+        lump(0.0, -0.150, 0.180, [0.060, 0.040, 0.065]),
+        lump(-0.070, 0.045, 0.205, [0.026, 0.020, 0.020]),
+        lump(0.070, 0.045, 0.205, [0.026, 0.020, 0.020]),
+        lump(-0.150, 0.160, 0.125, [0.052, 0.058, 0.030]),
+        lump(0.150, 0.160, 0.125, [0.052, 0.058, 0.030]),
+        brow(-1.0),
+        brow(1.0),
     ])
-    .turned(DVec3::Y, 0.35);
-    let ring = torus(0.095, 0.015, 16, 6).turned(DVec3::X, PI / 2.0 - 0.15).turned(DVec3::Y, 0.35);
-    [
-        Part::new(Shape::joined([mane, face]).shaded(60.0), palette.stone),
-        Part::new(ring.moved(0.075, -0.19, 0.21).shaded(60.0), palette.bronze),
-    ]
+    .turned(DVec3::Y, 0.30);
+    let ring = torus(0.095, 0.015, 16, 6).turned(DVec3::X, PI / 2.0 - 0.25).moved(0.06, -0.205, 0.20);
+    let stone = Shape::joined([mane(0.285, 0.03, 0.0), mane(0.225, 0.09, PI), face]);
+    [Part::new(stone.shaded(70.0), palette.masonry.stone), Part::new(ring.shaded(60.0), palette.fittings.bronze)]
 }
 
 fn add_lions(glb: &mut GlbWriter, palette: &Palette) {
@@ -181,14 +193,14 @@ fn add_cube(glb: &mut GlbWriter, palette: &Palette, walk: &mut ClipWriter) {
         bevelled_block(0.58, 0.09, 0.58, 0.025).moved(0.0, 0.765, 0.0),
         cylinder(0.03, 0.10, 10).moved(0.0, 0.79, 0.0),
     ];
-    let plinth =
-        glb.mesh("plinth", &[Part::new(Shape::joined(plinth).box_mapped(1.0).shaded(40.0), palette.dark_stone)]);
-    let plinth = glb.show(None, "plinth", plinth, at(-3.1, 0.0, 2.75));
+    let plinth = glb
+        .mesh("plinth", &[Part::new(Shape::joined(plinth).box_mapped(1.0).shaded(40.0), palette.masonry.dark_stone)]);
+    let plinth = glb.show(None, "plinth", plinth, at(-3.2, 0.0, 1.95));
     let edge = 0.40;
     // From its resting corner the cube's diagonal rises straight up.
     let lean = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Y);
     let cube = bevelled_block(edge, edge, edge, 0.03).mapped(|point| lean * point);
-    let cube = glb.mesh("cube", &[Part::new(cube.shaded(20.0), palette.bronze)]);
+    let cube = glb.mesh("cube", &[Part::new(cube.shaded(20.0), palette.fittings.bronze)]);
     let cube = glb.show(Some(plinth), "cube", cube, at(0.0, 0.87 + edge * 3.0_f64.sqrt() / 2.0 - 0.03, 0.0));
     turn_evenly(walk, cube, DVec3::Y, 1);
 }

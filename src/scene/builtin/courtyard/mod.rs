@@ -23,7 +23,7 @@ use palette::Palette;
 const WALK_SECS: f64 = 10.0;
 
 pub fn make() -> Vec<u8> {
-    let mut glb = GlbWriter::new();
+    let mut glb = GlbWriter::default();
     let mut walk = ClipWriter::new("walk");
     let palette = Palette::new(&mut glb);
     building::add(&mut glb, &palette);
@@ -34,7 +34,7 @@ pub fn make() -> Vec<u8> {
     glb.clip(walk);
     glb.clip(wave);
 
-    let sun = facing(DVec3::new(6.8, 7.5, 2.6), DVec3::ZERO);
+    let sun = facing(DVec3::new(6.5, 7.8, 2.6), DVec3::ZERO);
     glb.sun("sun", sun, [1.0, 0.94, 0.84], 8.0);
     glb.camera("view", facing(DVec3::new(1.5, 2.55, 6.8), DVec3::new(0.2, 1.85, -1.0)), 0.92);
     glb.finish("courtyard")

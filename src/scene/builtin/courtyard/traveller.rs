@@ -1,8 +1,7 @@
 //! The traveller who walks round the fountain.
 
-use super::super::character::body::Cloths;
+use super::super::character::add_person;
 use super::super::character::gait::{Circle, wave};
-use super::super::character::{Person, add_person};
 use super::super::glb::{ClipWriter, GlbWriter};
 use super::WALK_SECS;
 use super::palette::Palette;
@@ -16,19 +15,7 @@ const WAVE_HEADING_RADIANS: f64 = 0.79;
 
 /// Adds the traveller and its part of `walk`; returns the clip `wave`.
 pub fn add(glb: &mut GlbWriter, palette: &Palette, walk: &mut ClipWriter) -> ClipWriter {
-    let cloths = Cloths {
-        skin: palette.skin,
-        hair: palette.hair,
-        tunic: palette.tunic,
-        trim: palette.scarf,
-        sleeves: palette.linen,
-        trousers: palette.trousers,
-        leather: palette.leather,
-        cape: palette.cape,
-        dark: palette.hair,
-        metal: palette.bronze,
-    };
-    let person: Person = add_person(glb, "traveller", &cloths, &PATH.pose(0.0));
+    let person = add_person(glb, "traveller", &palette.cloths, &PATH.pose(0.0));
     let keys = PATH.strides as u32 * KEYS_A_STRIDE;
     person.animate(walk, &times(WALK_SECS, keys), |time| PATH.pose(time));
 

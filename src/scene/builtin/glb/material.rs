@@ -1,6 +1,6 @@
 //! Pictures and materials of a file.
 
-use gltf::json::extensions::material as extension;
+use gltf::json::extensions::material::{EmissiveStrength, EmissiveStrengthFactor};
 use gltf::json::material::{EmissiveFactor, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf::json::texture::{Info, MagFilter, MinFilter, Sampler};
 use gltf::json::validation::Checked::Valid;
@@ -63,11 +63,7 @@ impl GlbWriter {
 
     pub fn material(&mut self, name: &str, paint: Paint) -> Index<Material> {
         let [red, green, blue] = paint.base_color;
-        let glows = paint.emissive_strength != 1.0;
-        if glows {
-            self.use_extension("KHR_materials_emissive_strength");
-        }
-        self.root.push(Material {
+        let mut material = Material {
             name: Some(name.into()),
             double_sided: paint.double_sided,
             pbr_metallic_roughness: PbrMetallicRoughness {
@@ -79,14 +75,14 @@ impl GlbWriter {
                 ..PbrMetallicRoughness::default()
             },
             emissive_factor: EmissiveFactor(paint.emissive),
-            extensions: glows.then(|| extension::Material {
-                emissive_strength: Some(extension::EmissiveStrength {
-                    emissive_strength: extension::EmissiveStrengthFactor(paint.emissive_strength),
-                }),
-                ..extension::Material::default()
-            }),
             ..Material::default()
-        })
+        };
+        if paint.emissive_strength != 1.0 {
+            let strength = EmissiveStrength { emissive_strength: EmissiveStrengthFactor(paint.emissive_strength) };
+            material.extensions.get_or_insert_default().emissive_strength = Some(strength);
+            self.use_extension("KHR_materials_emissive_strength");
+        }
+        self.root.push(material)
     }
 }
 

@@ -149,7 +149,7 @@ pub fn cloth(drape: &Drape, columns: usize, rows: usize) -> Shape {
 /// (`low_end`, `high_end` in x). UVs are metres.
 pub fn tiled_roof(half_wall: f64, low_end: f64, high_end: f64, depth: f64, drop: f64, tile_width: f64) -> Shape {
     let tiles = (2.0 * half_wall / tile_width).round();
-    let arc = [0.0, 0.62, 0.92, 1.0, 0.92, 0.62];
+    let arc = [0.0, 0.68, 0.97, 0.97, 0.68];
     let columns = tiles as usize * arc.len();
     Shape::grid(columns, 1, |u, v| {
         let x = (2.0 * u - 1.0) * half_wall;

@@ -10,7 +10,7 @@ pub mod round;
 pub mod solid;
 pub mod surface;
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use super::exact::turn;
 pub use surface::Surface;
@@ -86,11 +86,6 @@ impl Shape {
         if x * y * z < 0.0 { scaled.flipped() } else { scaled }
     }
 
-    pub fn transformed(self, parent_from_shape: DAffine3) -> Self {
-        let moved = self.mapped(|position| parent_from_shape.transform_point3(position));
-        if parent_from_shape.matrix3.determinant() < 0.0 { moved.flipped() } else { moved }
-    }
-
     /// Swaps front and back.
     pub fn flipped(mut self) -> Self {
         self.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
@@ -126,5 +121,54 @@ impl Shape {
             split.triangles.push([first, first + 1, first + 2]);
         }
         split
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::round::{cylinder, lathe, torus};
+    use super::solid::{bevelled_block, block, icosphere, sphere};
+    use super::*;
+    use crate::scene::builtin::exact::PI;
+
+    fn volume(shape: &Shape) -> f64 {
+        let at = |index: usize| shape.positions[index];
+        shape.triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c))) / 6.0).sum()
+    }
+
+    #[test]
+    fn closed_shapes_enclose_their_volume() {
+        assert!((volume(&block(1.0, 2.0, 3.0)) - 6.0).abs() < 1e-12);
+        // A bevel takes half its square along each of the twelve edges, and more at the corners.
+        let bevelled = 1.0 - volume(&bevelled_block(1.0, 1.0, 1.0, 0.1));
+        assert!((12.0 * 0.005 * 0.8..12.0 * 0.005).contains(&bevelled), "{bevelled}");
+        // Inscribed polyhedra fill a little less than the round body.
+        for (shape, round) in [
+            (icosphere(3), 4.0 / 3.0 * PI),
+            (sphere(64, 32), 4.0 / 3.0 * PI),
+            (cylinder(1.0, 1.0, 64), PI),
+            (torus(2.0, 0.5, 64, 64), 2.0 * PI * PI * 2.0 * 0.25),
+        ] {
+            assert!((0.98 * round..round).contains(&volume(&shape)), "{} of {round}", volume(&shape));
+        }
+    }
+
+    #[test]
+    fn mirroring_keeps_the_right_side_out() {
+        let cone = lathe(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], 16);
+        assert!((volume(&cone.clone().scaled(-1.0, 1.0, 1.0)) - volume(&cone)).abs() < 1e-12);
+        assert!((volume(&cone.clone().flipped().outward()) - volume(&cone)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn creases_split_vertices_and_seams_do_not() {
+        let cube = block(1.0, 1.0, 1.0);
+        let flat = Shape { uvs: vec![DVec2::ZERO; cube.uvs.len()], ..cube };
+        assert_eq!(flat.shaded(30.0).positions.len(), 24);
+        assert_eq!(flat.shaded(100.0).positions.len(), 8);
+        let ball = sphere(16, 8);
+        for (position, normal) in ball.shaded(60.0).positions.iter().zip(ball.shaded(60.0).normals) {
+            assert!(position.normalize().dot(normal) > 0.99);
+        }
     }
 }
