@@ -10,7 +10,11 @@
 //! drive the same engine with the same settings.
 
 pub mod data;
+pub mod engine;
 pub mod gpu;
+pub mod plan;
+pub mod prepare;
 pub mod progress;
 pub mod scene;
+pub mod settings;
 pub mod stages;

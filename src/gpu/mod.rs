@@ -1,1 +1,119 @@
-//! GPU plumbing.
+//! GPU plumbing: device, shaders, kernels by reflection, buffers, recorded work run in slices.
+//!
+//! ```text
+//! shaders/x.wgsl ─► Source ─► Kernel ─┐
+//!                         GpuBuffer ──┴► Recorder ─► Job ─► slices of the queue ─► KernelTiming
+//! ```
+//!
+//! A stage *records* what it wants done; nothing runs until a [`Job`] runs it, in pieces short
+//! enough that a window on the same queue stays fluid. Nothing here knows the paper.
+
+mod bindings;
+mod buffer;
+pub mod constants;
+mod cost;
+mod device;
+mod encode;
+mod error;
+mod job;
+mod kernel;
+pub mod layouts;
+mod raster;
+mod recorder;
+mod reflect;
+pub mod shaders;
+mod texture;
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+pub use bindings::{BindingKind, KernelBinding};
+pub use buffer::{BufferUse, GpuBuffer, PendingRead};
+pub use cost::KernelTiming;
+pub use encode::Threads;
+pub use error::GpuError;
+pub use job::{Job, JobState};
+pub use kernel::Kernel;
+pub use raster::{DEPTH_FORMAT, RasterKernel, RasterTarget};
+pub use recorder::{PassBuilder, Recorder};
+pub use reflect::parse;
+pub use texture::GpuTexture;
+
+use device::Health;
+use shaders::Source;
+
+/// One device, what was compiled for it and what lives on it.
+pub struct Gpu {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    pub info: wgpu::AdapterInfo,
+    pub limits: wgpu::Limits,
+    default_workgroup_size: Option<u32>,
+    kernels: Mutex<HashMap<KernelKey, Arc<Kernel>>>,
+    raster_kernels: Mutex<HashMap<(&'static str, &'static str), Arc<RasterKernel>>>,
+    registry: buffer::Registry,
+    serial: AtomicU64,
+    counters: Mutex<Counters>,
+    timings: Mutex<Vec<KernelTiming>>,
+    scratch: Mutex<Vec<encode::Scratch>>,
+    health: Arc<Health>,
+}
+
+/// Path and overrides (as bits, which are comparable).
+type KernelKey = (String, Vec<(String, u64)>);
+
+/// What was done since the start; a plan is checked against the differences.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Recorded passes that ran, by kernel name, however many slices each took.
+    pub dispatches: BTreeMap<String, u64>,
+    pub pipelines: u64,
+    pub buffers: u64,
+}
+
+impl Gpu {
+    /// The kernel of `shaders/PATH` with these overrides, compiled on first need. A kernel that
+    /// does not compile is returned too; running it is the error.
+    pub fn kernel(&self, path: &'static str, constants: &[(&str, f64)]) -> Arc<Kernel> {
+        let overrides = constants.iter().map(|(name, value)| ((*name).to_owned(), value.to_bits())).collect();
+        let mut kernels = lock(&self.kernels);
+        let kernel = kernels.entry((path.to_owned(), overrides)).or_insert_with(|| {
+            let name = path.trim_end_matches(".wgsl");
+            Arc::new(Kernel::compile(self, Source::embedded(path), name, constants))
+        });
+        Arc::clone(kernel)
+    }
+
+    /// A kernel from text, which may import files of `shaders/`. Not cached.
+    pub fn kernel_from_source(&self, name: &str, wgsl: &str, constants: &[(&str, f64)]) -> Arc<Kernel> {
+        Arc::new(Kernel::compile(self, Source::inline(name, wgsl), name, constants))
+    }
+
+    pub fn counters(&self) -> Counters {
+        lock(&self.counters).clone()
+    }
+
+    /// Live buffers in the order they were made.
+    pub fn memory(&self) -> Vec<BufferUse> {
+        lock(&self.registry).values().cloned().collect()
+    }
+
+    /// Times of the jobs that finished since the last call, in pass order.
+    pub fn take_timings(&self) -> Vec<KernelTiming> {
+        std::mem::take(&mut *lock(&self.timings))
+    }
+
+    fn counted(&self, count: impl FnOnce(&mut Counters)) {
+        count(&mut lock(&self.counters));
+    }
+
+    fn next_serial(&self) -> u64 {
+        self.serial.fetch_add(1, Ordering::Relaxed)
+    }
+}
+
+/// A panic in another thread leaves these plain collections usable.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,78 @@
+// What both gathering kernels share: the sources of a leaf block, and the weights a voxel has in
+// its 2³ leaves.
+#import shared/world_voxel.wgsl
+#import shared/block_rank.wgsl
+#import shared/leaf_sum.wgsl
+#import shared/node.wgsl
+
+override SPLIT: bool = true;
+
+// Blocks whose voxels may reach a block: itself and, under split, its backward neighbours.
+fn source_count() -> u32 {
+    return select(1u, 8u, SPLIT);
+}
+
+// Voxel range of source number `source` of the block at `block_cell` (in blocks).
+fn source_range(block_cell: vec3<i32>, source: u32) -> vec2<u32> {
+    let cell = block_cell - vec3<i32>((vec3<u32>(source) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u));
+    if any(cell < vec3<i32>(0)) {
+        return vec2<u32>(0u);
+    }
+    let block = leaf_block_rank(morton_key(vec3<u32>(cell)));
+    if block == NO_BLOCK {
+        return vec2<u32>(0u);
+    }
+    return vec2<u32>(block_starts[2u * block], block_starts[2u * block + 2u]);
+}
+
+// Weights along one axis in the block's two layers, for the base cell's distance from the first.
+fn axis_weights(distance: i32, f: u32) -> vec2<u32> {
+    switch distance {
+        case -1: { return vec2<u32>(f, 0u); }
+        case 0: { return vec2<u32>(FRACTION_ONE - f, f); }
+        case 1: { return vec2<u32>(0u, FRACTION_ONE - f); }
+        default: { return vec2<u32>(0u); }
+    }
+}
+
+struct BlockWeights {
+    x: vec2<u32>,
+    y: vec2<u32>,
+    z: vec2<u32>,
+}
+
+fn block_weights(words: vec2<u32>, block_cell: vec3<i32>) -> BlockWeights {
+    let q = unpack_q(words);
+    if SPLIT {
+        let distance = base_cell(q) - 2 * block_cell;
+        let f = fraction(q);
+        return BlockWeights(axis_weights(distance.x, f.x), axis_weights(distance.y, f.y), axis_weights(distance.z, f.z));
+    }
+    let layer = nearest_cell(q) - 2 * block_cell;
+    return BlockWeights(axis_weights(layer.x, 0u), axis_weights(layer.y, 0u), axis_weights(layer.z, 0u));
+}
+
+// Leaves of the block and the node above them, resolved: each occupied leaf is written once.
+struct BlockWriter {
+    slot: u32,
+    sum: NodeSum,
+}
+
+fn write_leaf(writer: BlockWriter, leaf: Leaf) -> BlockWriter {
+    if leaf.occupancy == 0u {
+        return writer;
+    }
+    leaves[3u * writer.slot] = leaf.occupancy;
+    leaves[3u * writer.slot + 1u] = leaf.albedo;
+    leaves[3u * writer.slot + 2u] = leaf.normal;
+    let albedo = ALBEDO_NODE_SCALE * unpack_rgb8(leaf.albedo);
+    return BlockWriter(writer.slot + 1u, add_child(writer.sum, leaf.occupancy, 0u, albedo, unpack_biased(leaf.normal)));
+}
+
+fn begin_block(block: u32) -> BlockWriter {
+    return BlockWriter(block_starts[2u * block + 1u], empty_sum());
+}
+
+fn finish_block(writer: BlockWriter, key: u32) {
+    nodes[node_index(octree.depth - 1u, key)] = finish_node(writer.sum);
+}

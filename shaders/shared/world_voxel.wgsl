@@ -1,0 +1,33 @@
+// A world voxel, 16 bytes: what transformation leaves for every later stage (section 4.2).
+//
+//   word 0  qx 19 | qy low 13        q + 256 = 256·(cell + 1) + fraction, per axis: the guard layer
+//   word 1  qy high 6 | qz 19        of one cell keeps base −1 representable
+//   word 2  normal, packed           word 3  albedo, rgba8
+//
+// One quotient, then cell and fraction of that same number (Eq. 2): q >> 8 and q & 255.
+#import constants
+#import shared/packing.wgsl
+
+const OUTSIDE: u32 = 0xffffffffu;
+
+fn pack_q(q: vec3<i32>) -> vec2<u32> {
+    let biased = vec3<u32>(q + vec3<i32>(i32(FRACTION_ONE)));
+    return vec2<u32>(biased.x | ((biased.y & 0x1fffu) << 19u), (biased.y >> 13u) | (biased.z << 6u));
+}
+
+fn unpack_q(words: vec2<u32>) -> vec3<i32> {
+    let biased = vec3<u32>(words.x & 0x7ffffu, (words.x >> 19u) | ((words.y & 0x3fu) << 13u), (words.y >> 6u) & 0x7ffffu);
+    return vec3<i32>(biased) - vec3<i32>(i32(FRACTION_ONE));
+}
+
+fn base_cell(q: vec3<i32>) -> vec3<i32> {
+    return q >> vec3<u32>(FRACTION_BITS);
+}
+
+fn fraction(q: vec3<i32>) -> vec3<u32> {
+    return vec3<u32>(q) & vec3<u32>(FRACTION_ONE - 1u);
+}
+
+fn nearest_cell(q: vec3<i32>) -> vec3<i32> {
+    return (q + vec3<i32>(i32(FRACTION_ONE / 2u))) >> vec3<u32>(FRACTION_BITS);
+}

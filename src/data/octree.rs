@@ -1,0 +1,196 @@
+//! The partly dense sparse voxel octree (section 4.3): index arithmetic and the buffers.
+//!
+//! ```text
+//! level 0 … dense     nodes stored densely, in Morton order
+//! dense+1 … depth     nodes in blocks of 8 children; block r's are nodes dense_nodes + 8r … + 7
+//!
+//! leaf_bits   1 bit a leaf cell, Morton order: a byte is the child mask of a node one level up
+//! occupied    1 bit a node, levels 0 … depth−1        O(l): something is below
+//! blocks      1 bit a node, levels dense … depth−1    A(l): its children are allocated
+//! ranks       blocks' exclusive prefix sum, a number a word, the total at the end
+//! block_keys  Morton key of the node above each block, all levels in order
+//! first_child 1 word an inner node: index of its first child, 0 = none
+//! nodes       4 words an inner node, see shaders/shared/node.wgsl
+//! block_starts  2 words a leaf block: its first sorted voxel, its first leaf; totals at the end
+//! leaves      3 words an *occupied* leaf: occupancy (2^24 = full), albedo rgb8, normal 10|10|10
+//! ```
+//!
+//! Order is key order: the same in every run. Leaves (level `depth`) have no node payload; the
+//! blocks of level depth−1 are called leaf blocks.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::gpu::{Gpu, GpuBuffer, GpuError};
+
+/// Weight of a voxel that lies wholly in one cell: 2^(3k), k = 8 fraction bits an axis.
+pub const FULL_WEIGHT: u32 = 1 << (3 * FRACTION_BITS);
+/// k: fraction bits a transformed voxel keeps per axis.
+pub const FRACTION_BITS: u32 = 8;
+/// Cells along an axis that keys and packed positions can hold.
+pub const MAX_DEPTH: u32 = 10;
+/// "Not allocated", wherever a block or node index may be absent.
+pub const NO_BLOCK: u32 = u32::MAX;
+/// Inner nodes hold albedo in units of 1/1020: four to a leaf's 1/255.
+pub const ALBEDO_NODE_SCALE: u32 = 4;
+/// Voxels that one thread may sum in two 12-bit halves without a carry: 1024 · 4096 · 1022 < 2^32.
+pub const MAX_FRAGMENTS: u32 = 1024;
+
+const LEVEL_SLOTS: usize = 12;
+
+/// Mirror of `OctreeLevel` in shaders/shared/octree.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct OctreeLevel {
+    pub occupied_word: u32,
+    pub blocks_word: u32,
+    pub first_block: u32,
+    pub first_node: u32,
+}
+
+/// Mirror of `OctreeParams` in shaders/shared/octree.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct OctreeParams {
+    pub depth: u32,
+    pub dense_level: u32,
+    pub block_count: u32,
+    pub leaf_block_count: u32,
+    pub inner_node_count: u32,
+    pub leaf_count: u32,
+    pub dense_node_count: u32,
+    pub pad: u32,
+    pub levels: [OctreeLevel; LEVEL_SLOTS],
+}
+
+/// Words of one bit a node at a level.
+pub fn mask_words(level: u32) -> u32 {
+    (1u32 << (3 * level)).div_ceil(32)
+}
+
+impl OctreeParams {
+    /// What is known before anything is built. `dense_level` is at most `depth − 1`.
+    pub fn new(depth: u32, dense_level: u32) -> Self {
+        debug_assert!(dense_level < depth && depth <= MAX_DEPTH);
+        let mut params = Self { depth, dense_level, ..Self::default() };
+        let mut occupied_word = 0;
+        let mut blocks_word = 0;
+        for level in 0..depth {
+            let slot = &mut params.levels[level as usize];
+            slot.occupied_word = occupied_word;
+            occupied_word += mask_words(level);
+            if level <= dense_level {
+                slot.first_node = params.dense_node_count;
+                params.dense_node_count += 1 << (3 * level);
+            }
+            if level >= dense_level {
+                slot.blocks_word = blocks_word;
+                blocks_word += mask_words(level);
+            }
+        }
+        params
+    }
+
+    pub fn occupied_words(&self) -> u32 {
+        (0..self.depth).map(mask_words).sum()
+    }
+
+    pub fn blocks_words(&self) -> u32 {
+        (self.dense_level..self.depth).map(mask_words).sum()
+    }
+
+    /// Fills in the sizes, once the scan has found them: `first_blocks` of levels dense … depth−1,
+    /// then the total.
+    pub fn with_counts(mut self, first_blocks: &[u32], leaf_count: u32) -> Self {
+        debug_assert_eq!(first_blocks.len() as u32, self.depth - self.dense_level + 1);
+        self.block_count = first_blocks[first_blocks.len() - 1];
+        let first_leaf_block = first_blocks[first_blocks.len() - 2];
+        self.leaf_block_count = self.block_count - first_leaf_block;
+        self.inner_node_count = self.dense_node_count + 8 * first_leaf_block;
+        self.leaf_count = leaf_count;
+        for (level, &first) in (self.dense_level..self.depth).zip(first_blocks) {
+            self.levels[level as usize].first_block = first;
+            if level > self.dense_level {
+                // The children of the level above begin where its blocks begin.
+                let above = self.levels[level as usize - 1].first_block;
+                self.levels[level as usize].first_node = self.dense_node_count + 8 * above;
+            }
+        }
+        self
+    }
+
+    /// Nodes stored at a level, dummies included; level `depth` is the leaves.
+    pub fn node_count(&self, level: u32) -> u32 {
+        if level <= self.dense_level { 1 << (3 * level) } else { 8 * self.block_count_of(level - 1) }
+    }
+
+    /// Blocks whose parent is at `level`, for levels dense … depth−1.
+    pub fn block_count_of(&self, level: u32) -> u32 {
+        let first = self.levels[level as usize].first_block;
+        if level + 1 == self.depth {
+            self.block_count - first
+        } else {
+            self.levels[level as usize + 1].first_block - first
+        }
+    }
+}
+
+/// The buffers of one octree. They grow with what is built and are kept for the next build.
+#[derive(Debug, Default)]
+pub struct OctreeBuffers {
+    pub leaf_bits: Slot,
+    pub occupied: Slot,
+    pub blocks: Slot,
+    pub ranks: Slot,
+    pub counters: Slot,
+    pub block_keys: Slot,
+    pub first_child: Slot,
+    pub nodes: Slot,
+    pub block_counts: Slot,
+    pub block_starts: Slot,
+    pub leaves: Slot,
+    pub leaf_objects: Slot,
+    pub places: Slot,
+    pub sorted_voxels: Slot,
+    pub heavy_blocks: Slot,
+    pub scan_sums: Vec<Slot>,
+}
+
+/// A buffer made on first need and made again, larger, when it no longer suffices.
+#[derive(Clone, Debug, Default)]
+pub struct Slot(Option<GpuBuffer>);
+
+impl Slot {
+    /// At least `bytes` large. Contents are undefined after growth.
+    pub fn ensure(&mut self, gpu: &Gpu, label: &str, bytes: u64) -> Result<GpuBuffer, GpuError> {
+        if let Some(buffer) = &self.0
+            && buffer.bytes() >= bytes
+        {
+            return Ok(buffer.clone());
+        }
+        let limit = gpu.limits.max_storage_buffer_binding_size;
+        if bytes > limit {
+            let (label, adapter) = (label.to_owned(), gpu.info.name.clone());
+            return Err(GpuError::BufferTooLarge { label, bytes, limit, adapter });
+        }
+        // The old one goes first: both at once might not fit.
+        let grown = self.0.take().is_some();
+        let bytes = bytes.max(4).next_multiple_of(4);
+        // Growing by an eighth more than asked keeps a slowly growing scene from reallocating every frame.
+        let roomy = if grown { bytes + (bytes / 8).next_multiple_of(4) } else { bytes };
+        let buffer = gpu.buffer(label, if roomy <= limit { roomy } else { bytes }, wgpu::BufferUsages::empty())?;
+        Ok(self.0.insert(buffer).clone())
+    }
+
+    /// The buffer, where an earlier stage must have made it.
+    pub fn made(&self, label: &str) -> Result<GpuBuffer, GpuError> {
+        self.0.clone().ok_or_else(|| GpuError::Missing { label: label.to_owned() })
+    }
+
+    pub fn get(&self) -> Option<&GpuBuffer> {
+        self.0.as_ref()
+    }
+
+    pub fn free(&mut self) {
+        self.0 = None;
+    }
+}

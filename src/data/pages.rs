@@ -1,0 +1,211 @@
+//! The chain of pages that world voxels live in (section 4.2).
+//!
+//! ```text
+//! page 0                 page 1                 page 2 …      all the same size
+//! ├─seg─┼─seg─┼─ … ─┤    ├─seg─┼─ … ─┤          one segment belongs to one part of an object
+//! slot = page · PAGE_SLOTS + segment · SEGMENT_SLOTS + i
+//! ```
+//!
+//! A part takes as many segments as its voxels need, anywhere in the chain; leaving frees them;
+//! where none is free a page is appended. Nothing moves, nothing is lost.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use bytemuck::{Pod, Zeroable};
+
+/// Slots of a segment: the unit that changes owners.
+pub const SEGMENT_SLOTS: u32 = 256;
+/// Segments of a page: 1 MiB of world voxels.
+pub const PAGE_SEGMENTS: u32 = 256;
+pub const WORLD_VOXEL_BYTES: u64 = 16;
+/// Threads between two entries of the hint table, by which a thread finds its work item.
+pub const WORK_HINT_THREADS: u32 = 64;
+
+/// Which free segment is taken first. Results do not depend on it; tests show that.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SegmentOrder {
+    #[default]
+    LowestFirst,
+    HighestFirst,
+}
+
+/// Who owns which segment.
+#[derive(Clone, Debug, Default)]
+pub struct Pages {
+    pages: u32,
+    free: BTreeSet<u32>,
+    owned: BTreeMap<u32, Vec<u32>>,
+    order: SegmentOrder,
+}
+
+impl Pages {
+    pub fn new(order: SegmentOrder) -> Self {
+        Self { order, ..Self::default() }
+    }
+
+    pub fn page_count(&self) -> u32 {
+        self.pages
+    }
+
+    pub fn slot_count(&self) -> u32 {
+        self.pages * PAGE_SEGMENTS * SEGMENT_SLOTS
+    }
+
+    pub fn bytes(&self) -> u64 {
+        u64::from(self.slot_count()) * WORLD_VOXEL_BYTES
+    }
+
+    /// Segments of a part, in the order its voxels fill them; empty for one that is not in.
+    pub fn segments(&self, part: u32) -> &[u32] {
+        self.owned.get(&part).map_or(&[], Vec::as_slice)
+    }
+
+    pub fn parts(&self) -> impl Iterator<Item = u32> + '_ {
+        self.owned.keys().copied()
+    }
+
+    /// Gives a part its segments. A part that is in already keeps what it has.
+    pub fn enter(&mut self, part: u32, voxels: u32) {
+        if self.owned.contains_key(&part) {
+            return;
+        }
+        let needed = voxels.div_ceil(SEGMENT_SLOTS) as usize;
+        while self.free.len() < needed {
+            let first = self.pages * PAGE_SEGMENTS;
+            self.free.extend(first..first + PAGE_SEGMENTS);
+            self.pages += 1;
+        }
+        let segments = (0..needed).filter_map(|_| self.take_free()).collect();
+        self.owned.insert(part, segments);
+    }
+
+    /// Takes a part's segments back.
+    pub fn leave(&mut self, part: u32) {
+        self.free.extend(self.owned.remove(&part).unwrap_or_default());
+    }
+
+    fn take_free(&mut self) -> Option<u32> {
+        match self.order {
+            SegmentOrder::LowestFirst => self.free.pop_first(),
+            SegmentOrder::HighestFirst => self.free.pop_last(),
+        }
+    }
+
+    /// Every segment has one owner or is free, none both.
+    pub fn validate(&self) -> Result<(), String> {
+        let mut seen = self.free.clone();
+        for (part, segments) in &self.owned {
+            for &segment in segments {
+                if !seen.insert(segment) {
+                    return Err(format!("segment {segment} of part {part} has another owner or is free"));
+                }
+            }
+        }
+        let all = self.pages * PAGE_SEGMENTS;
+        if seen.len() as u32 == all {
+            Ok(())
+        } else {
+            Err(format!("{} of {all} segments are lost", all - seen.len() as u32))
+        }
+    }
+}
+
+/// A run of slots that one part fills. Mirror of `WorkItem` in shaders/shared/work_list.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+pub struct WorkItem {
+    pub first_thread: u32,
+    pub first_slot: u32,
+    /// Into the uploaded caches.
+    pub first_voxel: u32,
+    pub part: u32,
+    /// Object number in the scene.
+    pub object: u32,
+}
+
+/// A part that has something to move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorkPart {
+    pub part: u32,
+    pub object: u32,
+    /// Into the uploaded caches.
+    pub first_voxel: u32,
+    pub voxels: u32,
+}
+
+/// What the GPU walks: one thread a voxel, without padding.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct WorkList {
+    /// Runs in thread order and a sentinel.
+    pub items: Vec<WorkItem>,
+    /// Item of thread 0, 64, 128 …
+    pub hints: Vec<u32>,
+    pub threads: u32,
+}
+
+impl WorkList {
+    /// `parts` in thread order.
+    pub fn new(pages: &Pages, parts: impl IntoIterator<Item = WorkPart>) -> Self {
+        let mut list = Self::default();
+        for part in parts {
+            list.push_part(pages.segments(part.part), part);
+        }
+        list.items.push(WorkItem { first_thread: u32::MAX, ..WorkItem::zeroed() });
+        list.hints = (0..list.threads.div_ceil(WORK_HINT_THREADS))
+            .map(|hint| list.items.partition_point(|item| item.first_thread <= hint * WORK_HINT_THREADS) as u32 - 1)
+            .collect();
+        list
+    }
+
+    fn push_part(&mut self, segments: &[u32], WorkPart { part, object, first_voxel, voxels }: WorkPart) {
+        let mut done = 0;
+        let mut previous = None;
+        for &segment in segments {
+            // Segments that follow one another make one run.
+            if previous.is_none_or(|previous: u32| previous + 1 != segment) {
+                let first_thread = self.threads + done;
+                let first_slot = segment * SEGMENT_SLOTS;
+                self.items.push(WorkItem { first_thread, first_slot, first_voxel: first_voxel + done, part, object });
+            }
+            previous = Some(segment);
+            done += SEGMENT_SLOTS.min(voxels - done);
+        }
+        self.threads += done;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn freed_segments_are_reused_and_none_is_lost() {
+        let mut pages = Pages::default();
+        pages.enter(0, 1000);
+        pages.enter(1, SEGMENT_SLOTS * PAGE_SEGMENTS);
+        assert_eq!(pages.page_count(), 2);
+        let freed = pages.segments(0).to_vec();
+        pages.leave(0);
+        pages.enter(2, 1000);
+        assert_eq!(pages.segments(2), freed);
+        assert_eq!(pages.page_count(), 2);
+        pages.validate().unwrap();
+    }
+
+    #[test]
+    fn work_list_has_one_thread_a_voxel() {
+        let mut pages = Pages::default();
+        pages.enter(0, 300);
+        pages.enter(1, 10);
+        pages.leave(0);
+        pages.enter(2, 700);
+        let work = |part, first_voxel, voxels| WorkPart { part, object: 7, first_voxel, voxels };
+        let list = WorkList::new(&pages, [work(1, 300, 10), work(2, 310, 700)]);
+        assert_eq!(list.threads, 710);
+        // Part 2 takes the two freed segments and one behind part 1's.
+        assert_eq!(list.items.len(), 4);
+        assert_eq!(list.items[1], WorkItem { first_thread: 10, first_slot: 0, first_voxel: 310, part: 2, object: 7 });
+        assert_eq!(list.items[2].first_thread, 10 + 512);
+        assert_eq!(list.hints.len(), 12);
+    }
+}

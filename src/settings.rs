@@ -1,0 +1,167 @@
+//! Everything a person can set. Window and command line fill the same struct, a screenshot carries
+//! it, and the engine compares it with what was built to decide what a frame must do.
+
+use serde::{Deserialize, Serialize};
+
+use crate::data::voxel_cache::VoxelizationMode;
+use crate::scene::OrbitCamera;
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Settings {
+    pub discretization: Discretization,
+    pub motion: MotionSettings,
+    pub look: Look,
+}
+
+/// What the voxels are made of. A change of grid, span or mode voxelizes again.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Discretization {
+    /// N, cells along an axis: a power of two, 64 to 1024.
+    pub grid: u32,
+    /// δ in scene units; `None`: the scene's posed bounds over all its animation decide.
+    pub span: Option<f64>,
+    pub mode: VoxelizationMode,
+    pub filter: Filter,
+    /// Levels 0 to this one are stored densely; at most one less than the depth.
+    pub dense_level: u32,
+    pub anchor: VoxelAnchor,
+}
+
+impl Default for Discretization {
+    fn default() -> Self {
+        Self {
+            grid: 128,
+            span: None,
+            mode: VoxelizationMode::default(),
+            filter: Filter::default(),
+            dense_level: 6,
+            anchor: VoxelAnchor::default(),
+        }
+    }
+}
+
+impl Discretization {
+    pub const GRIDS: [u32; 5] = [64, 128, 256, 512, 1024];
+
+    /// log2 of the grid.
+    pub fn depth(&self) -> u32 {
+        self.grid.ilog2()
+    }
+
+    /// The dense level, one above the leaves at most: leaves are always sparse.
+    pub fn dense_level(&self) -> u32 {
+        self.dense_level.min(self.depth() - 1)
+    }
+}
+
+/// How a moved voxel falls into cells (section 3.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Filter {
+    /// The one cell its centre lies in (Fig. 1a).
+    Nearest,
+    /// 8-neighbour split by overlap (Fig. 1b).
+    #[default]
+    Split,
+}
+
+impl Filter {
+    /// As the kernels' SPLIT override.
+    pub fn is_split(self) -> f64 {
+        f64::from(u8::from(self == Self::Split))
+    }
+}
+
+/// Which point of a cache voxel the transformation moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum VoxelAnchor {
+    #[default]
+    Centre,
+    /// Eq. 1 to the letter: a rotated voxel lands up to √3 cells off.
+    Corner,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MotionSettings {
+    /// Clip by name; `None`: the first one. An empty name: the rest pose.
+    pub clip: Option<String>,
+    pub time_secs: f64,
+    /// Turns the whole scene about its centre, x, then y, then z axis, after voxelization: a rigid motion of everything.
+    pub turn_degrees: [f64; 3],
+}
+
+impl Default for MotionSettings {
+    fn default() -> Self {
+        Self { clip: None, time_secs: 0.0, turn_degrees: [0.0; 3] }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Look {
+    pub view: View,
+    pub color: ColorBy,
+    /// Octree level shown; `None`: the leaves.
+    pub level: Option<u32>,
+    pub alpha: AlphaRule,
+    pub voxel_edges: bool,
+    /// A headlight from the camera; off shows the bare colour.
+    pub shaded: bool,
+    /// `None`: frames everything.
+    pub camera: Option<OrbitCamera>,
+    /// Also measures the filter not shown, and both against the exact posed voxelization.
+    pub accuracy: bool,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            view: View::default(),
+            color: ColorBy::default(),
+            level: None,
+            alpha: AlphaRule::default(),
+            voxel_edges: false,
+            shaded: true,
+            camera: None,
+            accuracy: false,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum View {
+    /// The octree, ray-marched with occupancy as alpha (Fig. 8).
+    #[default]
+    Voxels,
+    /// The posed triangles.
+    Mesh,
+    /// Exact voxels of the posed mesh over the moved ones: holes red, spill blue.
+    Ghost,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ColorBy {
+    #[default]
+    Albedo,
+    Normal,
+    Occupancy,
+    Object,
+    Level,
+}
+
+/// How much of the light a visited voxel of occupancy α stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AlphaRule {
+    /// α once a visited voxel, as in the paper's Fig. 8.
+    #[default]
+    Paper,
+    /// 1 − (1 − α)^(s/δ) for a path of length s inside it.
+    Length,
+}

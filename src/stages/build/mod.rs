@@ -1,0 +1,28 @@
+//! Builds the octree's nodes without locks (section 4.3, by another route than Algorithm 1):
+//! mark the leaves as bits, reduce two pyramids of masks, scan them, emit the nodes in key order.
+//! Sizes are known after the scan, before anything is stored.
+
+pub mod emit;
+pub mod mark;
+pub mod reduce;
+pub mod scan;
+pub mod scan_spread;
+pub mod scan_sum;
+
+/// Counter of the split weight that fell outside the grid, in 2^-24 voxels.
+pub const COUNTER_CLIPPED: u32 = 0;
+/// Counter of the occupied nodes of level 0; those of levels 1 … depth follow.
+pub const COUNTER_OCCUPIED: u32 = 1;
+/// 64-bit counters, two words each, cleared before a build.
+pub const COUNTERS: u32 = COUNTER_OCCUPIED + MAX_DEPTH + 1;
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::data::octree::MAX_DEPTH;
+
+/// Uniform of the kernels that work on one level.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct LevelParams {
+    pub level: u32,
+}

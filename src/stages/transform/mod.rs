@@ -1,0 +1,56 @@
+//! Voxel transformation (section 4.2): moves the cache voxels of every object in the grid into world
+//! voxels, one thread a voxel. In: caches, parts, matrices. Out: `q`, normal, albedo a slot.
+
+pub mod rigid;
+pub mod skinned;
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::gpu::GpuBuffer;
+
+/// Mirror of `TransformParams` in shaders/shared/move_voxel.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct TransformParams {
+    pub grid_cells: i32,
+    pub first_thread: u32,
+}
+
+/// `grid_from_cache` as the GPU reads it, row by row: a cache position to cell coordinates.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Matrix3x4 {
+    pub rows: [[f32; 4]; 3],
+}
+
+/// A tile of an object's cache and what moves it. Mirror of `Part` in shaders/shared/move_voxel.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Part {
+    pub origin: [i32; 3],
+    pub first_matrix: u32,
+    pub joints_skew: u32,
+    pub object: u32,
+    pub pad: [u32; 2],
+}
+
+/// The buffers of a transformation. Rigid parts come first in the work list, then skinned ones.
+#[derive(Clone, Debug)]
+pub struct MovingVoxels {
+    pub work_items: GpuBuffer,
+    pub work_hints: GpuBuffer,
+    pub parts: GpuBuffer,
+    pub matrices: GpuBuffer,
+    pub cache_voxels: GpuBuffer,
+    /// Made only where a skin is in the scene.
+    pub cache_joints: Option<GpuBuffer>,
+    pub world_voxels: GpuBuffer,
+    pub rigid_threads: u32,
+    pub skinned_threads: u32,
+}
+
+impl MovingVoxels {
+    pub fn threads(&self) -> u32 {
+        self.rigid_threads + self.skinned_threads
+    }
+}

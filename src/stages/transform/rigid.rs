@@ -1,0 +1,19 @@
+//! Moves the voxels of static and rigid objects (section 3.2, "basic linear transformations").
+
+use super::{MovingVoxels, TransformParams};
+use crate::gpu::{Gpu, Recorder};
+
+pub fn record(gpu: &Gpu, frame: &mut Recorder, voxels: &MovingVoxels, grid_cells: u32) {
+    let threads = u64::from(voxels.rigid_threads);
+    frame
+        .pass(&gpu.kernel("transform/rigid.wgsl", &[]))
+        .uniform("params", &TransformParams { grid_cells: grid_cells as i32, first_thread: 0 })
+        .bind("work_items", &voxels.work_items)
+        .bind("work_hints", &voxels.work_hints)
+        .bind("parts", &voxels.parts)
+        .bind("matrices", &voxels.matrices)
+        .bind("cache_voxels", &voxels.cache_voxels)
+        .bind("world_voxels", &voxels.world_voxels)
+        .bytes_moved(threads * (16 + 16))
+        .dispatch(threads);
+}

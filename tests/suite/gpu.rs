@@ -1,0 +1,315 @@
+//! The executor: what is recorded runs as recorded, however it is cut; mistakes are sentences.
+
+use std::time::Duration;
+
+use octolume::gpu::{Gpu, GpuBuffer, GpuError, Job, JobState, Recorder};
+use wgpu::BufferUsages;
+
+use crate::device::{gpu, open};
+
+const HEADER: &str = "
+    #import shared/threads.wgsl
+    override WORKGROUP_SIZE: u32 = 64u;
+    @compute @workgroup_size(WORKGROUP_SIZE)
+    fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+        let i = thread_index(id, groups);
+        if (i >= threads.end) { return; }
+";
+
+/// sum[i] = a[i] + b[i] + offset
+fn add_source() -> String {
+    let bindings = "
+        struct Params { offset: u32 }
+        @group(0) @binding(0) var<storage, read> a: array<u32>;
+        @group(0) @binding(1) var<storage, read> b: array<u32>;
+        @group(0) @binding(2) var<storage, read_write> sum: array<u32>;
+        @group(0) @binding(3) var<uniform> params: Params;
+        @group(0) @binding(4) var<storage, read_write> unused: array<u32>;
+    ";
+    format!("{HEADER} sum[i] = a[i] + b[i] + params.offset; }} {bindings}")
+}
+
+/// Every thread counts itself once: visits[i] += 1.
+fn visit_source() -> String {
+    format!(
+        "{HEADER} atomicAdd(&visits[i], 1u); }} @group(0) @binding(0) var<storage, read_write> visits: array<atomic<u32>>;"
+    )
+}
+
+fn words(gpu: &Gpu, buffer: &GpuBuffer) -> Vec<u32> {
+    gpu.read(buffer, 0..buffer.bytes()).expect("readable")
+}
+
+fn visits(gpu: &Gpu, threads: u64, workgroup_size: u32, budget: Option<Duration>) -> (Vec<u32>, usize) {
+    let kernel = gpu.kernel_from_source("visit", &visit_source(), &[("WORKGROUP_SIZE", f64::from(workgroup_size))]);
+    let buffer = gpu.buffer("visits", threads * 4, BufferUsages::empty()).expect("fits");
+    let mut recorder = Recorder::default();
+    recorder.pass(&kernel).bind("visits", &buffer).dispatch(threads);
+    let mut job = Job::new(recorder);
+    let mut polls = 0;
+    match budget {
+        None => job.run_to_end(gpu).expect("runs"),
+        Some(budget) => {
+            while job.advance(gpu, budget).expect("runs") != JobState::Done {
+                polls += 1;
+                std::thread::sleep(Duration::from_micros(200));
+            }
+        }
+    }
+    (words(gpu, &buffer), polls)
+}
+
+#[test]
+fn adds_and_copies() {
+    let gpu = gpu();
+    let kernel = gpu.kernel_from_source("add", &add_source(), &[]);
+    let numbers: Vec<u32> = (0..1000).collect();
+    let a = gpu.upload("a", &numbers).expect("fits");
+    let sum = gpu.buffer("sum", 4000, BufferUsages::empty()).expect("fits");
+    let copy = gpu.upload("copy", &[7_u32; 1000]).expect("fits");
+    let mut recorder = Recorder::default();
+    for offset in [1_u32, 5] {
+        recorder.pass(&kernel).bind("a", &a).bind("b", &a).bind("sum", &sum).uniform("params", &offset).dispatch(1000);
+    }
+    recorder.copy(&sum, 400, &copy, 0, 40);
+    Job::new(recorder).run_to_end(gpu).expect("runs");
+    assert_eq!(words(gpu, &sum), numbers.iter().map(|i| 2 * i + 5).collect::<Vec<_>>());
+    let copied = words(gpu, &copy);
+    assert_eq!(copied[..10], numbers[100..110].iter().map(|i| 2 * i + 5).collect::<Vec<_>>());
+    assert_eq!(copied[10..], [7; 990]);
+}
+
+#[test]
+fn clears_only_what_is_asked() {
+    let gpu = gpu();
+    let (a, b) = (gpu.upload("a", &[1_u32; 9]).expect("fits"), gpu.upload("b", &[1_u32; 9]).expect("fits"));
+    let mut recorder = Recorder::default();
+    recorder.clear(&a);
+    Job::new(recorder).run_to_end(gpu).expect("runs");
+    assert_eq!((words(gpu, &a), words(gpu, &b)), (vec![0; 9], vec![1; 9]));
+}
+
+#[test]
+fn five_million_threads_are_folded_and_run_once_each() {
+    let (visits, _) = visits(gpu(), 5_000_001, 64, None);
+    assert!(visits.iter().all(|&count| count == 1));
+}
+
+#[test]
+fn every_workgroup_size_runs_every_thread_once() {
+    for size in [32, 64, 128, 256] {
+        for threads in [0, 1, u64::from(size) - 1, u64::from(size), u64::from(size) + 1, 100_003] {
+            let (visits, _) = visits(gpu(), threads, size, None);
+            assert!(visits[..threads as usize].iter().all(|&count| count == 1), "{threads} threads, {size} a group");
+            assert!(visits[threads as usize..].iter().all(|&count| count == 0), "{threads} threads, {size} a group");
+        }
+    }
+}
+
+#[test]
+fn slices_give_what_one_dispatch_gives() {
+    let whole = visits(gpu(), 1_000_003, 64, None).0;
+    let (sliced, polls) = visits(gpu(), 1_000_003, 64, Some(Duration::from_millis(1)));
+    assert_eq!(whole, sliced);
+    assert!(polls >= 3, "a budget of 1 ms takes several slices");
+}
+
+#[test]
+fn many_passes_keep_their_own_uniforms_and_order() {
+    let gpu = gpu();
+    let append = format!(
+        "{HEADER} log[step.x] = log[max(step.x, 1u) - 1u] + step.y; }}
+        @group(0) @binding(0) var<storage, read_write> log: array<u32>;
+        @group(0) @binding(1) var<uniform> step: vec2<u32>;"
+    );
+    let kernel = gpu.kernel_from_source("append", &append, &[]);
+    let log = gpu.buffer("log", 4 * 700, BufferUsages::empty()).expect("fits");
+    let mut recorder = Recorder::default();
+    for step in 0..700_u32 {
+        let mut part = Recorder::default();
+        part.pass(&kernel).bind("log", &log).uniform("step", &[step, step]).dispatch(1);
+        recorder.append(part);
+    }
+    Job::new(recorder).run_to_end(gpu).expect("runs");
+    let expected: Vec<u32> = (0..700).map(|step| step * (step + 1) / 2).collect();
+    assert_eq!(words(gpu, &log), expected);
+}
+
+#[test]
+fn counters_count_recorded_passes_and_timings_follow_them() {
+    let gpu = open();
+    let before = gpu.counters();
+    visits(&gpu, 1_000_000, 64, Some(Duration::from_millis(1)));
+    let after = gpu.counters();
+    assert_eq!(after.dispatches.get("visit"), Some(&1));
+    assert_eq!((after.pipelines - before.pipelines, after.buffers - before.buffers), (1, 1));
+    let timings = gpu.take_timings();
+    assert_eq!(timings.len(), 1);
+    assert_eq!((timings[0].kernel.as_str(), timings[0].threads), ("visit", 1_000_000));
+    assert!(timings[0].ms > 0.0);
+    assert!(gpu.take_timings().is_empty());
+}
+
+#[test]
+fn an_empty_recording_is_done_at_once_and_counts_nothing() {
+    let gpu = open();
+    let kernel = gpu.kernel_from_source("visit", &visit_source(), &[]);
+    let buffer = gpu.buffer("visits", 0, BufferUsages::empty()).expect("fits");
+    let mut recorder = Recorder::default();
+    recorder.pass(&kernel).bind("visits", &buffer).dispatch(0);
+    assert_eq!(Job::new(recorder).advance(&gpu, Duration::from_millis(1)), Ok(JobState::Done));
+    assert!(gpu.counters().dispatches.is_empty());
+}
+
+#[test]
+fn memory_lists_live_buffers_until_the_last_clone_is_dropped() {
+    let gpu = open();
+    let kept = gpu.upload("kept", &[0_u64; 8]).expect("fits");
+    let dropped = gpu.buffer("dropped", 1000, BufferUsages::empty()).expect("fits");
+    let clone = dropped.clone();
+    let labels = || gpu.memory().into_iter().map(|used| (used.label, used.bytes)).collect::<Vec<_>>();
+    assert_eq!(labels(), [("kept".to_owned(), 64), ("dropped".to_owned(), 1000)]);
+    drop(dropped);
+    assert_eq!(labels().len(), 2);
+    drop(clone);
+    assert_eq!(labels(), [("kept".to_owned(), 64)]);
+    drop(kept);
+}
+
+#[test]
+fn kernels_are_compiled_once_per_path_and_constants() {
+    let gpu = open();
+    let sizes = [64.0, 64.0, 128.0];
+    let source = |size| gpu.kernel("shared/threads.wgsl", &[("WORKGROUP_SIZE", size)]);
+    let kernels = sizes.map(source);
+    assert!(std::sync::Arc::ptr_eq(&kernels[0], &kernels[1]));
+    assert!(!std::sync::Arc::ptr_eq(&kernels[0], &kernels[2]));
+}
+
+#[test]
+fn reads_any_whole_range_and_refuses_others() {
+    let gpu = gpu();
+    let buffer = gpu.upload("numbers", &[1_u32, 2, 3, 4, 5]).expect("fits");
+    assert_eq!(gpu.read::<u32>(&buffer, 4..12), Ok(vec![2, 3]));
+    assert_eq!(gpu.read::<u32>(&buffer, 4..4), Ok(vec![]));
+    for range in [2..6, 16..24] {
+        let error = gpu.read::<u32>(&buffer, range).expect_err("outside");
+        assert!(matches!(error, GpuError::Range { .. }), "{error}");
+    }
+    let odd = gpu.upload("odd", &[1_u8, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17]).expect("fits");
+    assert_eq!(gpu.read::<u8>(&odd, 16..20), Ok(vec![17, 0, 0, 0]));
+}
+
+#[test]
+fn a_read_does_not_have_to_wait() {
+    let gpu = gpu();
+    let buffer = gpu.upload("numbers", &[1_u32, 2, 3, 4]).expect("fits");
+    let read = gpu.start_read(&buffer, 8..16).expect("in range");
+    let bytes = loop {
+        if let Some(bytes) = read.take(gpu).expect("readable") {
+            break bytes;
+        }
+    };
+    assert_eq!(bytes, bytemuck::cast_slice::<u32, u8>(&[3, 4]));
+}
+
+fn sentence(gpu: &Gpu, record: impl FnOnce(&mut Recorder)) -> String {
+    let mut recorder = Recorder::default();
+    record(&mut recorder);
+    Job::new(recorder).run_to_end(gpu).expect_err("refused").to_string()
+}
+
+#[test]
+fn wrong_bindings_name_kernel_and_binding() {
+    let gpu = gpu();
+    let kernel = gpu.kernel_from_source("add", &add_source(), &[]);
+    let a = gpu.upload("a", &[0_u32; 64]).expect("fits");
+    let sum = gpu.upload("sum", &[0_u32; 64]).expect("fits");
+    let missing = sentence(gpu, |r| r.pass(&kernel).bind("a", &a).bind("b", &a).bind("sum", &sum).dispatch(1));
+    assert_eq!(missing, "kernel \"add\", binding \"params\": not bound");
+    let surplus = sentence(gpu, |r| r.pass(&kernel).bind("unused", &a).dispatch(1));
+    assert_eq!(surplus, "kernel \"add\", binding \"unused\": the kernel does not use it");
+    let twice = sentence(gpu, |r| r.pass(&kernel).bind("a", &a).bind("a", &a).dispatch(1));
+    assert_eq!(twice, "kernel \"add\", binding \"a\": bound twice");
+    let kind = sentence(gpu, |r| r.pass(&kernel).uniform("a", &0_u32).dispatch(1));
+    assert_eq!(kind, "kernel \"add\", binding \"a\": the kernel declares a storage buffer, something else is bound");
+    let aliased = sentence(gpu, |r| {
+        r.pass(&kernel).bind("a", &a).bind("b", &a).bind("sum", &a).uniform("params", &0_u32).dispatch(1);
+    });
+    assert_eq!(aliased, "kernel \"add\", binding \"a\": the pass also writes this buffer through another binding");
+}
+
+#[test]
+fn shaders_that_do_not_compile_name_file_and_line() {
+    let gpu = gpu();
+    let buffer = gpu.upload("a", &[0_u32; 4]).expect("fits");
+    let run = |source: &str| {
+        let kernel = gpu.kernel_from_source("broken", source, &[]);
+        sentence(gpu, |r| r.pass(&kernel).bind("a", &buffer).dispatch(1))
+    };
+    let unknown = run("#import shared/threads.wgsl\n\nfn main() { nowhere(); }\noverride WORKGROUP_SIZE: u32 = 1;");
+    assert!(unknown.starts_with("broken:3: "), "{unknown}");
+    let inside = run("#import shared/threads.wgsl\n@compute @workgroup_size(1) fn main() {}");
+    assert!(inside.starts_with("shared/threads.wgsl:"), "{inside}");
+    let import = run("\n#import shared/absent.wgsl");
+    assert_eq!(import, "broken:2: #import shared/absent.wgsl: there is no such shader");
+    let entry = run("fn other() {}");
+    assert_eq!(entry, "broken: there is no compute entry point \"main\"");
+    let absent = sentence(gpu, |r| r.pass(&gpu.kernel("no/such.wgsl", &[])).dispatch(1));
+    assert_eq!(absent, "no/such.wgsl: there is no such shader");
+}
+
+#[test]
+fn an_unknown_constant_is_refused() {
+    let gpu = gpu();
+    let kernel = gpu.kernel_from_source("visit", &visit_source(), &[("WORKGROUP_SIZES", 1.0)]);
+    let message = sentence(gpu, |r| r.pass(&kernel).dispatch(1));
+    assert!(message.contains("WORKGROUP_SIZES"), "{message}");
+}
+
+#[test]
+fn a_buffer_beyond_the_limit_names_both_numbers() {
+    let gpu = gpu();
+    let bytes = gpu.limits.max_buffer_size + 4;
+    let error = gpu.buffer("huge", bytes, BufferUsages::empty()).expect_err("too large").to_string();
+    assert!(error.contains("\"huge\"") && error.contains(&bytes.to_string()), "{error}");
+    assert!(error.contains(&gpu.limits.max_buffer_size.to_string()), "{error}");
+}
+
+#[test]
+fn more_threads_than_32_bits_are_refused() {
+    let gpu = gpu();
+    let kernel = gpu.kernel_from_source("visit", &visit_source(), &[]);
+    let buffer = gpu.upload("visits", &[0_u32; 4]).expect("fits");
+    let message = sentence(gpu, |r| r.pass(&kernel).bind("visits", &buffer).dispatch(1 << 33));
+    assert_eq!(message, "kernel \"visit\" cannot run 8589934592 threads: thread numbers have 32 bits");
+}
+
+#[test]
+fn an_absent_adapter_is_a_sentence() {
+    let Err(error) = Gpu::headless(Some("no such adapter")) else { panic!("found one") };
+    assert!(error.to_string().starts_with("no GPU adapter has \"no such adapter\" in its name; "), "{error}");
+}
+
+#[test]
+fn a_default_workgroup_size_reaches_kernels_that_declare_one() {
+    let gpu = open().with_workgroup_size(128);
+    assert_eq!(gpu.kernel_from_source("visit", &visit_source(), &[]).workgroup_size, [128, 1, 1]);
+    let explicit = gpu.kernel_from_source("visit", &visit_source(), &[("WORKGROUP_SIZE", 32.0)]);
+    assert_eq!(explicit.workgroup_size, [32, 1, 1]);
+}
+
+#[test]
+fn a_destroyed_device_is_lost_and_says_so() {
+    let gpu = open();
+    let kernel = gpu.kernel_from_source("visit", &visit_source(), &[]);
+    let buffer = gpu.upload("visits", &[0_u32; 64]).expect("fits");
+    let mut recorder = Recorder::default();
+    recorder.pass(&kernel).bind("visits", &buffer).dispatch(64);
+    gpu.device.destroy();
+    let error = Job::new(recorder).run_to_end(&gpu).expect_err("lost");
+    assert!(matches!(error, GpuError::Lost(_)), "{error}");
+    assert!(gpu.is_lost());
+    let error = gpu.upload("more", &[0_u32; 64]).expect_err("lost");
+    assert!(matches!(error, GpuError::Lost(_)), "{error}");
+}
