@@ -6,6 +6,11 @@
 use std::mem::offset_of;
 
 use super::Threads;
+use crate::data::octree::{OctreeLevel, OctreeParams};
+use crate::data::pages::WorkItem;
+use crate::stages::build::LevelParams;
+use crate::stages::build::scan::ScanParams;
+use crate::stages::transform::{Matrix3x4, Part, TransformParams};
 
 /// Both sides of a layout, as Rust sees it.
 #[derive(Clone, Copy, Debug)]
@@ -31,4 +36,30 @@ macro_rules! mirror {
     };
 }
 
-pub const MIRRORS: &[Mirror] = &[mirror!(Threads, "shared/threads.wgsl", "Threads", first, end)];
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(Threads, "shared/threads.wgsl", "Threads", first, end),
+    mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part),
+    mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
+    mirror!(Matrix3x4, "shared/move_voxel.wgsl", "Matrix3x4", rows),
+    mirror!(Part, "shared/move_voxel.wgsl", "Part", origin, first_matrix, joints_skew, object, pad),
+    mirror!(OctreeLevel, "shared/octree.wgsl", "OctreeLevel", occupied_word, blocks_word, first_block, first_node),
+    mirror!(
+        OctreeParams,
+        "shared/octree.wgsl",
+        "OctreeParams",
+        depth,
+        dense_level,
+        block_count,
+        leaf_block_count,
+        inner_node_count,
+        leaf_count,
+        dense_node_count,
+        pad,
+        levels,
+    ),
+    mirror!(LevelParams, "build/reduce.wgsl", "ReduceParams", level),
+    mirror!(LevelParams, "build/emit.wgsl", "EmitParams", level),
+    mirror!(LevelParams, "average/average.wgsl", "AverageParams", level),
+    mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
+    mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+];
