@@ -3,4 +3,7 @@
 mod device;
 mod gpu;
 mod loading;
+mod octree;
 mod shaders;
+mod stage_checks;
+mod stage_rig;
