@@ -38,7 +38,7 @@ macro_rules! mirror {
 
 pub const MIRRORS: &[Mirror] = &[
     mirror!(Threads, "shared/threads.wgsl", "Threads", first, end),
-    mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part),
+    mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part, object),
     mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
     mirror!(Matrix3x4, "shared/move_voxel.wgsl", "Matrix3x4", rows),
     mirror!(Part, "shared/move_voxel.wgsl", "Part", origin, first_matrix, joints_skew, object, pad),

@@ -3,6 +3,7 @@
 
 pub mod average;
 pub mod build;
+pub mod compare;
 pub mod fill;
 pub mod transform;
 pub mod voxelize;

@@ -7,3 +7,5 @@ mod octree;
 mod shaders;
 mod stage_checks;
 mod stage_rig;
+mod voxelization;
+mod voxelization_payload;

@@ -68,10 +68,12 @@ impl Expected {
         let depth = self.shape.depth;
         same("leaf bits", &cells_of(&built.leaf_bits, depth), &self.marked.leaves)?;
         same("clipped weight", &u128::from(built.clipped), &self.marked.clipped)?;
-        same("leaves", &built.leaf_count, &(self.marked.leaves.len() as u64))
+        same("leaves", &built.occupied_counts[depth as usize], &(self.marked.leaves.len() as u64))
     }
 
     pub fn check_pyramids(&self, built: &Built) -> Check {
+        let counts: Vec<u64> = self.pyramids.occupied.iter().map(|cells| cells.len() as u64).collect();
+        same("occupied nodes of each level", &built.occupied_counts, &counts)?;
         for level in 0..self.shape.depth {
             let occupied = occupied_cells(built, level);
             same(&format!("O({level})"), &occupied, &self.pyramids.occupied[level as usize])?;
@@ -164,8 +166,11 @@ pub fn quotients(fragments: &[Option<Fragment>]) -> impl Iterator<Item = Option<
 /// Cells whose bit is set in a level's words.
 pub fn cells_of(words: &[u32], level: u32) -> BTreeSet<Cell> {
     let bits = words.iter().zip(0..).filter(|(word, _)| **word != 0);
-    let keys = bits.flat_map(|(word, index)| (0..32).filter(move |bit| word >> bit & 1 == 1).map(move |b| 32 * index + b));
-    keys.inspect(|key| assert!(*key < 1 << (3 * level), "a bit past the end of level {level}")).map(morton_cell).collect()
+    let keys =
+        bits.flat_map(|(word, index)| (0..32).filter(move |bit| word >> bit & 1 == 1).map(move |b| 32 * index + b));
+    keys.inspect(|key| assert!(*key < 1 << (3 * level), "a bit past the end of level {level}"))
+        .map(morton_cell)
+        .collect()
 }
 
 pub fn occupied_cells(built: &Built, level: u32) -> BTreeSet<Cell> {
@@ -231,7 +236,8 @@ pub fn walk(built: &Built) -> Result<BTreeMap<(u32, Cell), u32>, String> {
         let parents: Vec<_> = found.range((level, [0; 3])..(level + 1, [0; 3])).map(|(k, v)| (k.1, *v)).collect();
         for (cell, index) in parents {
             let child = *built.first_child.get(index as usize).ok_or(format!("node {index} has no pointer word"))?;
-            let children = (0..if child == 0 { 0 } else { 8 }).map(|i| (morton_cell(8 * morton_key(cell) + i), child + i));
+            let children =
+                (0..if child == 0 { 0 } else { 8 }).map(|i| (morton_cell(8 * morton_key(cell) + i), child + i));
             found.extend(children.map(|(cell, index)| ((level + 1, cell), index)));
         }
     }
@@ -250,7 +256,8 @@ pub fn validate(built: &Built) -> Check {
     let mut pointed = BTreeSet::new();
     for (index, &child) in built.first_child.iter().enumerate().filter(|(_, child)| **child != 0) {
         let parent_level = level_of[&(index as u32)];
-        let block = child.checked_sub(params.dense_node_count).filter(|offset| offset % 8 == 0).map(|offset| offset / 8);
+        let block =
+            child.checked_sub(params.dense_node_count).filter(|offset| offset % 8 == 0).map(|offset| offset / 8);
         let in_range = block.filter(|block| *block < params.block_count);
         let Some(block) = in_range else { return Err(format!("node {index} points to {child}")) };
         ensure(pointed.insert(block), || format!("block {block} has two parents"))?;
@@ -301,11 +308,7 @@ pub fn check_conservation(built: &Built, expected: &Expected) -> Check {
     }
     same("occupied volume of each level", &levels, &vec![leaves; levels.len()])?;
     let total = u128::from(FULL_WEIGHT) * expected.fragments.len() as u128;
-    let sums = gather_ref::sums(
-        expected.fragments.iter().flatten().copied(),
-        built.params.depth,
-        expected.filter(),
-    );
+    let sums = gather_ref::sums(expected.fragments.iter().flatten().copied(), built.params.depth, expected.filter());
     let excess: u128 = sums.values().map(|sum| sum.weight.saturating_sub(FULL_WEIGHT.into())).sum();
     same("kept + clipped + excess", &(leaves + u128::from(built.clipped) + excess), &total)
 }

@@ -4,22 +4,23 @@
 use glam::{DAffine3, DVec3};
 use octolume::data::octree::{MAX_FRAGMENTS, OctreeParams, Slot, mask_words};
 use octolume::data::packing::{pack_normal, pack_position, pack_rgba8, unpack_position};
-use octolume::data::pages::{Pages, SegmentOrder, WorkItem, WorkList};
+use octolume::data::pages::{Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
 use octolume::data::voxel_cache::{CacheVoxel, VoxelJoints};
 use octolume::gpu::{Gpu, GpuBuffer, Job, Recorder};
 use octolume::settings::Filter;
+use octolume::stages::average::average;
 use octolume::stages::build::scan::{self, Scanned};
-use octolume::stages::build::{COUNTER_CLIPPED, COUNTER_LEAVES, COUNTERS, LevelParams, emit, mark, reduce};
+use octolume::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, LevelParams, emit, mark, reduce};
 use octolume::stages::fill::gather_ref::Fragment;
-use octolume::stages::fill::{Filling, count, gather, gather_heavy, place};
+use octolume::stages::fill::{Filling, count, gather, gather_heavy, number_objects, place};
 use octolume::stages::transform::rigid_ref::{pack_q, unpack_q};
 use octolume::stages::transform::{Matrix3x4, MovingVoxels, Part, rigid, skinned};
-use octolume::stages::average::average;
 use wgpu::BufferUsages;
 
 /// A tile of an object: voxels, what moves them, and joints where it is skinned.
 #[derive(Clone, Debug, Default)]
 pub struct RigPart {
+    pub object: u32,
     pub origin: [i32; 3],
     pub voxels: Vec<CacheVoxel>,
     /// As many as voxels, or none: rigid.
@@ -57,7 +58,8 @@ pub struct Built {
     pub blocks: Vec<u32>,
     pub ranks: Vec<u32>,
     pub clipped: u64,
-    pub leaf_count: u64,
+    /// Occupied nodes of levels 0 … depth.
+    pub occupied_counts: Vec<u64>,
     pub block_keys: Vec<u32>,
     pub first_child: Vec<u32>,
     pub block_counts: Vec<[u32; 2]>,
@@ -67,6 +69,8 @@ pub struct Built {
     pub leaves: Vec<[u32; 3]>,
     pub nodes: Vec<[u32; 4]>,
     pub heavy_blocks: Vec<u32>,
+    /// A word an occupied leaf, see `fill/number_objects.wgsl`.
+    pub leaf_objects: Vec<u32>,
 }
 
 /// `grid_from_cache` as uploaded: the anchor of a voxel (its centre: ½) folded in, then f32.
@@ -151,18 +155,18 @@ impl World {
                 origin: part.origin,
                 first_matrix: matrices.len() as u32,
                 joints_skew: if part.joints.is_empty() { 0 } else { first_voxel - joints.len() as u32 },
-                object: number,
+                object: part.object,
                 ..Part::default()
             });
             voxels.extend_from_slice(&part.voxels);
             joints.extend_from_slice(&part.joints);
             matrices.extend_from_slice(&part.matrices);
-            numbered.push((number, first_voxel, count));
+            numbered.push(WorkPart { part: number, object: part.object, first_voxel, voxels: count });
         }
         pages.validate().expect("pages");
-        let is_rigid = |entry: &(u32, u32, u32)| parts[entry.0 as usize].joints.is_empty();
+        let is_rigid = |work: &WorkPart| parts[work.part as usize].joints.is_empty();
         let (rigid_parts, skinned_parts): (Vec<_>, Vec<_>) = numbered.into_iter().partition(is_rigid);
-        let rigid_threads = rigid_parts.iter().map(|entry| entry.2).sum();
+        let rigid_threads = rigid_parts.iter().map(|work| work.voxels).sum();
         let list = WorkList::new(&pages, rigid_parts.into_iter().chain(skinned_parts));
         let moving = MovingVoxels {
             work_items: upload(gpu, "work items", &list.items),
@@ -188,7 +192,8 @@ impl World {
     pub fn given(gpu: &Gpu, voxels: &[[u32; 4]]) -> Self {
         let mut pages = Pages::new(SegmentOrder::default());
         pages.enter(0, voxels.len() as u32);
-        let list = WorkList::new(&pages, [(0, 0, voxels.len() as u32)]);
+        let list =
+            WorkList::new(&pages, [WorkPart { part: 0, object: 0, first_voxel: 0, voxels: voxels.len() as u32 }]);
         let moving = MovingVoxels {
             work_items: upload(gpu, "work items", &list.items),
             work_hints: upload(gpu, "work hints", &list.hints),
@@ -250,6 +255,8 @@ impl World {
             for level in (0..shape.depth - 1).rev() {
                 average::record(gpu, frame, params, &out.first_child, &fill.nodes, level);
             }
+            let bits_and_objects = (&masks.reduced.leaf_bits, &filling.leaf_objects);
+            number_objects::record(gpu, frame, moving, (params, shape.filter), fill, bits_and_objects);
         });
     }
 }
@@ -264,6 +271,7 @@ struct Masked {
 struct OutBuffers {
     emitted: emit::Emitted,
     fill: Filling,
+    leaf_objects: GpuBuffer,
 }
 
 impl Masked {
@@ -301,11 +309,11 @@ impl Masked {
         let ranks: Vec<u32> = read(gpu, &self.ranks, u64::from(params.blocks_words()) + 1);
         let words = (params.dense_level..params.depth).map(|level| params.levels[level as usize].blocks_word);
         let firsts: Vec<u32> = words.chain([params.blocks_words()]).map(|word| ranks[word as usize]).collect();
-        params.with_counts(&firsts, self.counter(gpu, COUNTER_LEAVES) as u32)
+        params.with_counts(&firsts, self.counters(gpu)[(COUNTER_OCCUPIED + params.depth) as usize] as u32)
     }
 
-    fn counter(&self, gpu: &Gpu, index: u32) -> u64 {
-        read::<u64>(gpu, &self.reduced.counters, COUNTERS.into())[index as usize]
+    fn counters(&self, gpu: &Gpu) -> Vec<u64> {
+        read(gpu, &self.reduced.counters, COUNTERS.into())
     }
 
     /// Full of ones, so that whatever is not written shows.
@@ -329,11 +337,13 @@ impl Masked {
             nodes: dirty("nodes", 4 * u64::from(params.inner_node_count)),
             heavy_blocks: dirty("heavy blocks", 2 + 8 * voxels / u64::from(MAX_FRAGMENTS)),
         };
-        OutBuffers { emitted, fill }
+        let leaf_objects = dirty("leaf objects", params.leaf_count.into());
+        OutBuffers { emitted, fill, leaf_objects }
     }
 
     fn built(&self, gpu: &Gpu, params: OctreeParams, out: &OutBuffers, voxels: u64) -> Built {
         let (masks, fill) = (&self.reduced, &out.fill);
+        let counters = self.counters(gpu);
         let leaf_blocks = u64::from(params.leaf_block_count);
         let heavy: Vec<u32> = read(gpu, &fill.heavy_blocks, 2 + 8 * voxels / u64::from(MAX_FRAGMENTS));
         Built {
@@ -342,8 +352,8 @@ impl Masked {
             occupied: read(gpu, &masks.occupied, params.occupied_words().into()),
             blocks: read(gpu, &masks.blocks, params.blocks_words().into()),
             ranks: read(gpu, &self.ranks, u64::from(params.blocks_words()) + 1),
-            clipped: self.counter(gpu, COUNTER_CLIPPED),
-            leaf_count: self.counter(gpu, COUNTER_LEAVES),
+            clipped: counters[COUNTER_CLIPPED as usize],
+            occupied_counts: counters[COUNTER_OCCUPIED as usize..][..=params.depth as usize].to_vec(),
             block_keys: read(gpu, &fill.block_keys, params.block_count.into()),
             first_child: read(gpu, &out.emitted.first_child, params.inner_node_count.into()),
             block_counts: read(gpu, &fill.block_counts, leaf_blocks),
@@ -353,18 +363,13 @@ impl Masked {
             leaves: read(gpu, &fill.leaves, params.leaf_count.into()),
             nodes: read(gpu, &fill.nodes, params.inner_node_count.into()),
             heavy_blocks: heavy[1..1 + heavy[0] as usize].to_vec(),
+            leaf_objects: read(gpu, &out.leaf_objects, params.leaf_count.into()),
         }
     }
 }
 
 /// The mutation of `reduce`: no backward neighbours.
-fn reduce_without_dummies(
-    gpu: &Gpu,
-    frame: &mut Recorder,
-    params: &OctreeParams,
-    masks: &reduce::Masks,
-    level: u32,
-) {
+fn reduce_without_dummies(gpu: &Gpu, frame: &mut Recorder, params: &OctreeParams, masks: &reduce::Masks, level: u32) {
     frame
         .pass(&gpu.kernel("build/reduce.wgsl", &[("DUMMIES", 0.0)]))
         .uniform("octree", params)

@@ -7,6 +7,8 @@ pub mod gather;
 pub mod gather_heavy;
 pub mod gather_heavy_ref;
 pub mod gather_ref;
+pub mod number_objects;
+pub mod number_objects_ref;
 pub mod place;
 pub mod place_ref;
 
