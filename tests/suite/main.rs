@@ -4,6 +4,7 @@ mod device;
 mod gpu;
 mod loading;
 mod octree;
+mod random;
 mod shaders;
 mod stage_checks;
 mod stage_rig;

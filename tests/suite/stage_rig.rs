@@ -2,7 +2,7 @@
 //! octree, and reads everything back.
 
 use glam::{DAffine3, DVec3};
-use octolume::data::octree::{MAX_FRAGMENTS, OctreeParams, Slot, mask_words};
+use octolume::data::octree::{MAX_FRAGMENTS, OctreeBuffers, OctreeParams, Slot, mask_words};
 use octolume::data::packing::{pack_normal, pack_position, pack_rgba8, unpack_position};
 use octolume::data::pages::{Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
 use octolume::data::voxel_cache::{CacheVoxel, VoxelJoints};
@@ -224,12 +224,17 @@ impl World {
         self.read(gpu).into_iter().map(fragment).collect()
     }
 
-    /// Builds, fills and averages the octree.
+    /// Builds, fills and averages the octree in new buffers.
     pub fn build(&self, gpu: &Gpu, shape: &Shape) -> Built {
-        let masks = Masked::new(gpu, &OctreeParams::new(shape.depth, shape.dense_level));
+        self.build_in(gpu, shape, &mut OctreeBuffers::default())
+    }
+
+    /// The same in buffers that may hold an earlier build.
+    pub fn build_in(&self, gpu: &Gpu, shape: &Shape, buffers: &mut OctreeBuffers) -> Built {
+        let masks = Masked::new(gpu, &OctreeParams::new(shape.depth, shape.dense_level), buffers);
         masks.record(gpu, &self.moving, shape);
         let params = masks.counted(gpu);
-        let filling = masks.filling(gpu, &params, u64::from(self.list.threads));
+        let filling = masks.filling(gpu, &params, u64::from(self.list.threads), buffers);
         self.fill(gpu, shape, &params, &masks, &filling);
         masks.built(gpu, params, &filling, u64::from(self.list.threads))
     }
@@ -261,6 +266,16 @@ impl World {
     }
 }
 
+/// A new buffer is full of ones, so that whatever is not written shows; an old one keeps its contents.
+fn dirty(gpu: &Gpu, slot: &mut Slot, label: &str, words: u64) -> GpuBuffer {
+    let is_new = slot.get().is_none_or(|buffer| buffer.bytes() < 4 * words);
+    let buffer = slot.ensure(gpu, label, 4 * words).unwrap_or_else(|error| panic!("{error}"));
+    if is_new {
+        gpu.write(&buffer, 0, &vec![0xff; buffer.bytes() as usize]).unwrap_or_else(|error| panic!("{error}"));
+    }
+    buffer
+}
+
 /// Mask buffers: sizes known before anything is built.
 struct Masked {
     params: OctreeParams,
@@ -275,14 +290,14 @@ struct OutBuffers {
 }
 
 impl Masked {
-    fn new(gpu: &Gpu, params: &OctreeParams) -> Self {
+    fn new(gpu: &Gpu, params: &OctreeParams, buffers: &mut OctreeBuffers) -> Self {
         let reduced = reduce::Masks {
-            leaf_bits: buffer(gpu, "leaf bits", mask_words(params.depth).into()),
-            occupied: buffer(gpu, "occupied", params.occupied_words().into()),
-            blocks: buffer(gpu, "blocks", params.blocks_words().into()),
-            counters: buffer(gpu, "counters", 2 * u64::from(COUNTERS)),
+            leaf_bits: dirty(gpu, &mut buffers.leaf_bits, "leaf bits", mask_words(params.depth).into()),
+            occupied: dirty(gpu, &mut buffers.occupied, "occupied", params.occupied_words().into()),
+            blocks: dirty(gpu, &mut buffers.blocks, "blocks", params.blocks_words().into()),
+            counters: dirty(gpu, &mut buffers.counters, "counters", 2 * u64::from(COUNTERS)),
         };
-        let ranks = buffer(gpu, "ranks", u64::from(params.blocks_words()) + 1);
+        let ranks = dirty(gpu, &mut buffers.ranks, "ranks", u64::from(params.blocks_words()) + 1);
         Self { params: *params, reduced, ranks }
     }
 
@@ -316,28 +331,29 @@ impl Masked {
         read(gpu, &self.reduced.counters, COUNTERS.into())
     }
 
-    /// Full of ones, so that whatever is not written shows.
-    fn filling(&self, gpu: &Gpu, params: &OctreeParams, voxels: u64) -> OutBuffers {
-        let dirty = |label: &str, words: u64| upload(gpu, label, &vec![u32::MAX; words as usize]);
+    fn filling(&self, gpu: &Gpu, params: &OctreeParams, voxels: u64, buffers: &mut OctreeBuffers) -> OutBuffers {
         let leaf_blocks = u64::from(params.leaf_block_count);
+        let inner_nodes = u64::from(params.inner_node_count);
+        let leaves = u64::from(params.leaf_count);
+        let heavy_words = 2 + 8 * voxels / u64::from(MAX_FRAGMENTS);
         let emitted = emit::Emitted {
-            block_keys: dirty("block keys", params.block_count.into()),
-            first_child: dirty("first child", params.inner_node_count.into()),
-            block_counts: dirty("block counts", 2 * leaf_blocks),
+            block_keys: dirty(gpu, &mut buffers.block_keys, "block keys", params.block_count.into()),
+            first_child: dirty(gpu, &mut buffers.first_child, "first child", inner_nodes),
+            block_counts: dirty(gpu, &mut buffers.block_counts, "block counts", 2 * leaf_blocks),
         };
         let fill = Filling {
             blocks: self.reduced.blocks.clone(),
             ranks: self.ranks.clone(),
             block_keys: emitted.block_keys.clone(),
             block_counts: emitted.block_counts.clone(),
-            block_starts: dirty("block starts", 2 * (leaf_blocks + 1)),
-            places: dirty("places", 2 * voxels),
-            sorted_voxels: dirty("sorted voxels", 4 * voxels),
-            leaves: dirty("leaves", 3 * u64::from(params.leaf_count)),
-            nodes: dirty("nodes", 4 * u64::from(params.inner_node_count)),
-            heavy_blocks: dirty("heavy blocks", 2 + 8 * voxels / u64::from(MAX_FRAGMENTS)),
+            block_starts: dirty(gpu, &mut buffers.block_starts, "block starts", 2 * (leaf_blocks + 1)),
+            places: dirty(gpu, &mut buffers.places, "places", 2 * voxels),
+            sorted_voxels: dirty(gpu, &mut buffers.sorted_voxels, "sorted voxels", 4 * voxels),
+            leaves: dirty(gpu, &mut buffers.leaves, "leaves", 3 * leaves),
+            nodes: dirty(gpu, &mut buffers.nodes, "nodes", 4 * inner_nodes),
+            heavy_blocks: dirty(gpu, &mut buffers.heavy_blocks, "heavy blocks", heavy_words),
         };
-        let leaf_objects = dirty("leaf objects", params.leaf_count.into());
+        let leaf_objects = dirty(gpu, &mut buffers.leaf_objects, "leaf objects", leaves);
         OutBuffers { emitted, fill, leaf_objects }
     }
 
