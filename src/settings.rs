@@ -1,6 +1,8 @@
 //! Everything a person can set. Window and command line fill the same struct, a screenshot carries
 //! it, and the engine compares it with what was built to decide what a frame must do.
 
+use std::ops::RangeInclusive;
+
 use serde::{Deserialize, Serialize};
 
 use crate::data::voxel_cache::VoxelizationMode;
@@ -12,6 +14,35 @@ pub struct Settings {
     pub discretization: Discretization,
     pub motion: MotionSettings,
     pub look: Look,
+}
+
+impl Settings {
+    /// Are all values in range? If not, the sentence names value and range. Whoever takes settings
+    /// from outside the program asks, before using them.
+    pub fn check(&self) -> Result<(), String> {
+        self.discretization.check()?;
+        self.motion.check()?;
+        let depth = self.discretization.depth();
+        if let Some(level) = self.look.level.filter(|level| *level > depth) {
+            return Err(format!("level {level} is not one of 0 (the root) to {depth} (the leaves)"));
+        }
+        self.look.camera.map_or(Ok(()), |camera| check_camera(&camera))
+    }
+}
+
+fn check_camera(camera: &OrbitCamera) -> Result<(), String> {
+    if !(camera.eye.is_finite() && camera.target.is_finite()) {
+        return Err("the camera's eye and target must be finite".to_owned());
+    }
+    if camera.eye == camera.target {
+        return Err("the camera's eye and target must differ".to_owned());
+    }
+    let possible = Look::FOV_DEGREES;
+    if !possible.contains(&camera.fov_y_degrees) {
+        let (least, most) = (possible.start(), possible.end());
+        return Err(format!("a field of view of {} degrees is not in {least} to {most}", camera.fov_y_degrees));
+    }
+    Ok(())
 }
 
 /// What the voxels are made of. A change of grid, span or mode voxelizes again.
@@ -44,6 +75,7 @@ impl Default for Discretization {
 
 impl Discretization {
     pub const GRIDS: [u32; 5] = [64, 128, 256, 512, 1024];
+    pub const MAX_DENSE_LEVEL: u32 = 9;
 
     /// log2 of the grid.
     pub fn depth(&self) -> u32 {
@@ -53,6 +85,21 @@ impl Discretization {
     /// The dense level, one above the leaves at most: leaves are always sparse.
     pub fn dense_level(&self) -> u32 {
         self.dense_level.min(self.depth() - 1)
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if !Self::GRIDS.contains(&self.grid) {
+            return Err(format!("a grid of {} cells is not one of {:?}", self.grid, Self::GRIDS));
+        }
+        if self.dense_level > Self::MAX_DENSE_LEVEL {
+            return Err(format!("dense level {} is not in 0 to {}", self.dense_level, Self::MAX_DENSE_LEVEL));
+        }
+        match self.span {
+            Some(span) if !(span.is_finite() && span > 0.0) => {
+                Err(format!("a span of {span} scene units is not a finite number above 0"))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -94,6 +141,18 @@ pub struct MotionSettings {
     pub turn_degrees: [f64; 3],
 }
 
+impl MotionSettings {
+    fn check(&self) -> Result<(), String> {
+        if !(self.time_secs.is_finite() && self.time_secs >= 0.0) {
+            return Err(format!("a time of {} seconds is not a finite number from 0", self.time_secs));
+        }
+        if !self.turn_degrees.iter().all(|angle| angle.is_finite()) {
+            return Err(format!("a turn of {:?} degrees is not finite", self.turn_degrees));
+        }
+        Ok(())
+    }
+}
+
 impl Default for MotionSettings {
     fn default() -> Self {
         Self { clip: None, time_secs: 0.0, turn_degrees: [0.0; 3] }
@@ -115,6 +174,11 @@ pub struct Look {
     pub camera: Option<OrbitCamera>,
     /// Also measures the filter not shown, and both against the exact posed voxelization.
     pub accuracy: bool,
+}
+
+impl Look {
+    /// Fields of view a camera may have.
+    pub const FOV_DEGREES: RangeInclusive<f64> = 1.0..=170.0;
 }
 
 impl Default for Look {
