@@ -2,11 +2,16 @@
 
 use std::time::Duration;
 
-/// Before anything is measured: 2^18 threads fill the 30 ms that a slice usually has.
-const FIRST_GUESS_NS_PER_THREAD: f64 = 30e6 / (1 << 18) as f64;
+/// Before anything is measured: the first range fills the 30 ms that a slice usually has.
+const FIRST_GUESS_NS_PER_THREAD: f64 = 30e6 / FIRST_RANGE_THREADS as f64;
 /// How many threads the running average remembers. Weighting by threads keeps tiny dispatches,
 /// which are all overhead, from spoiling it.
 const MEMORY_THREADS: f64 = (1 << 20) as f64;
+/// A range has at most this many threads, and at most [`GROWTH`] times those of the largest range
+/// measured: what a wrong estimate can cost.
+const MAX_RANGE_THREADS: u64 = 1 << 22;
+const FIRST_RANGE_THREADS: u64 = 1 << 18;
+const GROWTH: u64 = 8;
 /// Start of any dispatch, whatever its size.
 pub(super) const PASS_NS: f64 = 20e3;
 
@@ -26,6 +31,7 @@ pub struct KernelTiming {
 pub(super) struct Cost {
     ns: f64,
     threads: f64,
+    largest_range: u64,
 }
 
 impl Cost {
@@ -33,10 +39,15 @@ impl Cost {
         if self.threads == 0.0 { FIRST_GUESS_NS_PER_THREAD } else { self.ns / self.threads }
     }
 
+    pub fn max_threads(&self) -> u64 {
+        (GROWTH * self.largest_range).clamp(FIRST_RANGE_THREADS, MAX_RANGE_THREADS)
+    }
+
     pub fn learn(&mut self, took: Duration, threads: u64) {
         let forget = (MEMORY_THREADS / (self.threads + threads as f64)).min(1.0);
         self.ns = self.ns * forget + (took.as_nanos() as f64 - PASS_NS).max(0.0);
         self.threads = self.threads * forget + threads as f64;
+        self.largest_range = self.largest_range.max(threads);
     }
 }
 

@@ -14,8 +14,6 @@ use super::encode::{self, MAX_PIECES, Piece, Scratch};
 use super::recorder::{Command, Recorder};
 use super::{Gpu, GpuError, lock};
 
-/// A wrong guess then costs at most this many threads.
-const MAX_RANGE_THREADS: u64 = 1 << 22;
 /// Clearing and copying, cautiously.
 const NS_PER_BYTE: f64 = 0.25;
 /// A cut shorter than this part of the budget is not worth a submission's place.
@@ -188,7 +186,7 @@ impl Command {
     }
 
     fn max_units(&self) -> u64 {
-        if matches!(self, Self::Pass(_)) { MAX_RANGE_THREADS } else { u64::MAX }
+        if let Self::Pass(pass) = self { lock(&pass.kernel.cost).max_threads() } else { u64::MAX }
     }
 
     fn timing(&self) -> KernelTiming {

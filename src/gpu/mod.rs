@@ -16,6 +16,7 @@ mod encode;
 mod error;
 mod job;
 mod kernel;
+pub mod layouts;
 mod recorder;
 pub mod shaders;
 

@@ -4,20 +4,25 @@
 //! parents before children, so one forward pass poses them all.
 
 pub mod animation;
+pub mod bounds;
 pub mod builtin;
 pub mod camera;
+pub mod geometry;
 pub mod load;
 pub mod material;
 pub mod mesh;
 pub mod motion;
+pub mod polar;
 pub mod pose;
 pub mod skin;
+mod stretch;
 
 use std::path::PathBuf;
 
 use glam::{DMat4, DQuat, DVec3};
 
 pub use animation::{Channel, Clip, Interpolation, Property};
+pub use bounds::Aabb;
 pub use camera::OrbitCamera;
 pub use material::{AlphaMode, Material, Texture, TextureRef, Wrap};
 pub use mesh::{Mesh, Primitive};

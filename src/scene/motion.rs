@@ -1,7 +1,13 @@
 //! What moves, and how: the objects of a scene and the stretch each bakes into its voxels
 //! (right-polar decomposition W = R·U).
+//!
+//! The paper moves voxels rigidly. What a world matrix does beyond turning and shifting, U, is
+//! baked into the mesh before voxelization, as its mean over the clips; an object whose U strays
+//! from that mean by half a cell or more is one the method cannot move, and is named.
 
 use glam::DMat3;
+
+use super::{Channel, Interpolation, LocalTransform, Property, Scene};
 
 /// One drawable: a node with a mesh. The unit of Object I-O (section 4.2).
 #[derive(Clone, Debug)]
@@ -12,6 +18,7 @@ pub struct Object {
     pub motion: Motion,
     /// U, baked into the mesh before voxelization: what is left to move is rigid.
     /// The node's for rigid objects; one for all parts of a skin, the mean over joints and clips.
+    /// The identity where no moment has a regular matrix: the object is hidden.
     pub stretch: DMat3,
 }
 
@@ -23,4 +30,98 @@ pub enum Motion {
     Rigid,
     /// The joints of this skin move it.
     Skinned { skin: usize },
+}
+
+/// Exporters write scales and rest values that differ in the last bits of an f32; this share of
+/// a value is not motion, and not stretch.
+pub(super) const LAST_BITS: f64 = 1.0 / (1 << 20) as f64;
+
+impl Scene {
+    /// One object per node with a mesh, in node order.
+    pub fn objects(&self) -> Vec<Object> {
+        let mut objects: Vec<Object> = self.mesh_nodes().collect();
+        for (object, stretch) in objects.iter_mut().zip(self.mean_stretches()) {
+            object.stretch = stretch.unwrap_or(DMat3::IDENTITY);
+        }
+        objects
+    }
+
+    /// Objects that no clip ever shows, because their matrices are singular or not finite; by
+    /// index into [`Scene::objects`].
+    pub fn hidden_objects(&self) -> Vec<usize> {
+        let stretches = self.mean_stretches();
+        (0..stretches.len()).filter(|&object| stretches[object].is_none()).collect()
+    }
+
+    /// What of the scene's motion is shown approximately or not at all, a sentence each.
+    pub fn motion_warnings(&self, span: f64) -> Vec<String> {
+        let names: Vec<String> = self.mesh_nodes().map(|object| object.name).collect();
+        let hidden = self.hidden_objects().into_iter().map(|object| {
+            format!("object \"{}\" is hidden: its matrix is singular or not finite at all times", names[object])
+        });
+        let stretching = self.stretching_objects(span).into_iter().map(|(object, cells)| {
+            format!(
+                "object \"{}\" stretches by up to {cells:.1} cells; it is moved with its mean stretch",
+                names[object]
+            )
+        });
+        hidden.chain(stretching).collect()
+    }
+
+    /// The objects before their stretch is known.
+    pub(super) fn mesh_nodes(&self) -> impl Iterator<Item = Object> {
+        let moving = self.moving_nodes();
+        let mesh_nodes = self.nodes.iter().enumerate().filter_map(|(index, node)| Some((index, node, node.mesh?)));
+        mesh_nodes.map(move |(index, node, mesh)| Object {
+            name: node.name.clone(),
+            node: index,
+            mesh,
+            motion: match node.skin {
+                Some(skin) => Motion::Skinned { skin },
+                None if moving[index] => Motion::Rigid,
+                None => Motion::Static,
+            },
+            stretch: DMat3::IDENTITY,
+        })
+    }
+
+    /// By node: does any clip move it or one of its ancestors?
+    pub(super) fn moving_nodes(&self) -> Vec<bool> {
+        let mut moving = vec![false; self.nodes.len()];
+        for channel in self.clips.iter().flat_map(|clip| &clip.channels) {
+            moving[channel.node] |= match self.nodes[channel.node].local {
+                LocalTransform::Matrix(_) => false,
+                LocalTransform::Trs(rest) => match channel.property {
+                    Property::Translation => channel.leaves(rest.translation.to_array()),
+                    Property::Scale => channel.leaves(rest.scale.to_array()),
+                    Property::Rotation => {
+                        channel.leaves(rest.rotation.to_array()) && channel.leaves((-rest.rotation).to_array())
+                    }
+                },
+            };
+        }
+        for index in 0..self.nodes.len() {
+            moving[index] |= self.nodes[index].parent.is_some_and(|parent| moving[parent]);
+        }
+        moving
+    }
+}
+
+impl Channel {
+    /// Does it ever take its node off the rest value, by more than the last bits of an f32?
+    fn leaves<const N: usize>(&self, rest: [f64; N]) -> bool {
+        let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |largest: f64, number| largest.max(number.abs()));
+        let tolerance = LAST_BITS * largest(&rest);
+        let strays = |values: &[f64]| values.iter().zip(&rest).any(|(value, rest)| (value - rest).abs() > tolerance);
+        match self.interpolation {
+            Interpolation::Step | Interpolation::Linear => self.values.chunks_exact(N).any(strays),
+            Interpolation::CubicSpline => {
+                let duration_secs =
+                    self.times_secs.last().copied().unwrap_or(0.0) - self.times_secs.first().copied().unwrap_or(0.0);
+                self.values.chunks_exact(3 * N).any(|key| {
+                    strays(&key[N..2 * N]) || largest(&key[..N]).max(largest(&key[2 * N..])) * duration_secs > tolerance
+                })
+            }
+        }
+    }
 }

@@ -52,6 +52,7 @@ fn visits(gpu: &Gpu, threads: u64, workgroup_size: u32, budget: Option<Duration>
         Some(budget) => {
             while job.advance(gpu, budget).expect("runs") != JobState::Done {
                 polls += 1;
+                std::thread::sleep(Duration::from_micros(200));
             }
         }
     }
@@ -108,9 +109,9 @@ fn every_workgroup_size_runs_every_thread_once() {
 #[test]
 fn slices_give_what_one_dispatch_gives() {
     let whole = visits(gpu(), 1_000_003, 64, None).0;
-    let (sliced, polls) = visits(gpu(), 1_000_003, 64, Some(Duration::from_micros(100)));
+    let (sliced, polls) = visits(gpu(), 1_000_003, 64, Some(Duration::from_millis(1)));
     assert_eq!(whole, sliced);
-    assert!(polls > 3, "a budget of 0.1 ms takes several slices");
+    assert!(polls >= 3, "a budget of 1 ms takes several slices");
 }
 
 #[test]
@@ -138,7 +139,7 @@ fn many_passes_keep_their_own_uniforms_and_order() {
 fn counters_count_recorded_passes_and_timings_follow_them() {
     let gpu = open();
     let before = gpu.counters();
-    visits(&gpu, 1_000_000, 64, Some(Duration::from_micros(100)));
+    visits(&gpu, 1_000_000, 64, Some(Duration::from_millis(1)));
     let after = gpu.counters();
     assert_eq!(after.dispatches.get("visit"), Some(&1));
     assert_eq!((after.pipelines - before.pipelines, after.buffers - before.buffers), (1, 1));
@@ -301,8 +302,14 @@ fn a_default_workgroup_size_reaches_kernels_that_declare_one() {
 #[test]
 fn a_destroyed_device_is_lost_and_says_so() {
     let gpu = open();
+    let kernel = gpu.kernel_from_source("visit", &visit_source(), &[]);
+    let buffer = gpu.upload("visits", &[0_u32; 64]).expect("fits");
+    let mut recorder = Recorder::default();
+    recorder.pass(&kernel).bind("visits", &buffer).dispatch(64);
     gpu.device.destroy();
-    let kernel_needs_device = gpu.upload("a", &[0_u32; 4]);
-    let lost = kernel_needs_device.err().or_else(|| gpu.upload("a", &[0_u32; 4]).err());
-    assert!(gpu.is_lost() || lost.is_some());
+    let error = Job::new(recorder).run_to_end(&gpu).expect_err("lost");
+    assert!(matches!(error, GpuError::Lost(_)), "{error}");
+    assert!(gpu.is_lost());
+    let error = gpu.upload("more", &[0_u32; 64]).expect_err("lost");
+    assert!(matches!(error, GpuError::Lost(_)), "{error}");
 }

@@ -2,3 +2,5 @@
 
 mod device;
 mod gpu;
+mod loading;
+mod shaders;

@@ -1,0 +1,80 @@
+//! Vertices and normals where a pose puts them, in f64 with the file's float weights: what exact
+//! voxelization and mesh drawing read.
+
+use glam::{DMat3, DMat4, DVec3};
+use rayon::prelude::*;
+
+use super::{Motion, Object, Pose, Primitive, Scene};
+
+/// How one primitive gets from mesh space into the world.
+enum Mover {
+    Rigid(DMat4),
+    Skinned(Vec<DMat4>),
+}
+
+impl Scene {
+    /// World positions of a primitive's vertices, in vertex order.
+    pub fn posed_positions(&self, object: &Object, primitive: usize, pose: &Pose) -> Vec<DVec3> {
+        let primitive = &self.meshes[object.mesh].primitives[primitive];
+        let positions = primitive.positions.par_iter().enumerate();
+        match self.mover(object, primitive, pose) {
+            Mover::Rigid(matrix) => positions.map(|(_, p)| matrix.transform_point3(p.as_dvec3())).collect(),
+            Mover::Skinned(joints) => {
+                positions.map(|(vertex, p)| blend(primitive, vertex, &joints).transform_point3(p.as_dvec3())).collect()
+            }
+        }
+    }
+
+    /// World normals of a primitive's vertices, unit length; zero where the mesh has a zero normal.
+    pub fn posed_normals(&self, object: &Object, primitive: usize, pose: &Pose) -> Vec<DVec3> {
+        let primitive = &self.meshes[object.mesh].primitives[primitive];
+        let normals = primitive.normals.par_iter().enumerate();
+        match self.mover(object, primitive, pose) {
+            Mover::Rigid(matrix) => {
+                let matrix = normal_matrix(&DMat3::from_mat4(matrix));
+                normals.map(|(_, n)| (matrix * n.as_dvec3()).normalize_or_zero()).collect()
+            }
+            Mover::Skinned(joints) => {
+                normals.map(|(vertex, n)| skinned_normal(primitive, vertex, n.as_dvec3(), &joints)).collect()
+            }
+        }
+    }
+
+    fn mover(&self, object: &Object, primitive: &Primitive, pose: &Pose) -> Mover {
+        match object.motion {
+            Motion::Skinned { skin } if !primitive.joints.is_empty() => Mover::Skinned(self.joint_matrices(skin, pose)),
+            _ => Mover::Rigid(pose.world_from_node[object.node]),
+        }
+    }
+}
+
+/// The weighted mean of a vertex's joint matrices. A joint without weight is not even read:
+/// 0 · NaN would be NaN. f32 weights sum to 1 only nearly, which far away is millimetres.
+fn blend(primitive: &Primitive, vertex: usize, joints: &[DMat4]) -> DMat4 {
+    let influences = primitive.joints[vertex].into_iter().zip(primitive.weights[vertex]);
+    let (mut sum, mut total) = (DMat4::ZERO, 0.0);
+    for (joint, weight) in influences.filter(|&(_, weight)| weight > 0.0) {
+        sum += joints[joint as usize] * f64::from(weight);
+        total += f64::from(weight);
+    }
+    sum * (1.0 / total)
+}
+
+/// Opposed joints can cancel; then the strongest one alone turns the normal.
+fn skinned_normal(primitive: &Primitive, vertex: usize, normal: DVec3, joints: &[DMat4]) -> DVec3 {
+    let turned = |matrix: DMat4| (normal_matrix(&DMat3::from_mat4(matrix)) * normal).try_normalize();
+    let strongest = || {
+        let weights = primitive.weights[vertex];
+        let slot = (1..weights.len()).fold(0, |best, slot| if weights[slot] > weights[best] { slot } else { best });
+        turned(joints[primitive.joints[vertex][slot] as usize])
+    };
+    turned(blend(primitive, vertex, joints)).or_else(strongest).unwrap_or(normal.normalize_or_zero())
+}
+
+/// sign(det) · cofactor: |det| times the inverse transpose, without dividing. Mirrored objects
+/// keep their outside outside.
+pub fn normal_matrix(matrix: &DMat3) -> DMat3 {
+    let [a, b, c] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let cofactor = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b));
+    if matrix.determinant() < 0.0 { cofactor * -1.0 } else { cofactor }
+}

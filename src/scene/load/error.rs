@@ -1,0 +1,60 @@
+//! What can go wrong when a file is opened, each as one sentence.
+
+use crate::progress::Cancelled;
+
+/// Why a file could not be opened; its text names file, object and cause.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    #[error("{file}: cannot be read: {source}")]
+    Unreadable { file: String, source: std::io::Error },
+    #[error("{file}: {object}: {cause}")]
+    Invalid { file: String, object: String, cause: String },
+    #[error("{file}: opening was cancelled")]
+    Cancelled { file: String },
+}
+
+/// A [`LoadError`] before the file's name is known.
+#[derive(Debug)]
+pub(super) enum Defect {
+    Invalid { object: String, cause: String },
+    Cancelled,
+}
+
+impl Defect {
+    pub fn new(object: impl Into<String>, cause: impl Into<String>) -> Self {
+        Self::Invalid { object: object.into(), cause: cause.into() }
+    }
+
+    pub fn in_file(self, file: &str) -> LoadError {
+        let file = file.to_owned();
+        match self {
+            Self::Invalid { object, cause } => LoadError::Invalid { file, object, cause },
+            Self::Cancelled => LoadError::Cancelled { file },
+        }
+    }
+}
+
+impl From<Cancelled> for Defect {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+/// Turns a bare cause into a [`Defect`] of the object it is about.
+pub(super) trait About<T> {
+    fn about(self, object: impl FnOnce() -> String) -> Result<T, Defect>;
+}
+
+impl<T> About<T> for Result<T, String> {
+    fn about(self, object: impl FnOnce() -> String) -> Result<T, Defect> {
+        self.map_err(|cause| Defect::new(object(), cause))
+    }
+}
+
+/// How messages name an object: `mesh 3 "wheel"`.
+pub(super) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
+    match name {
+        Some(name) if !name.is_empty() => format!("{kind} {index} \"{name}\""),
+        _ => format!("{kind} {index}"),
+    }
+}

@@ -1,0 +1,111 @@
+//! Joints and weights of a primitive: any number of sets merged into the four strongest that sum to 1.
+
+use gltf::json::{mesh::Semantic, validation::Checked};
+
+use super::{
+    error::{About, Defect},
+    mesh::Attributes,
+};
+
+/// Influences kept a vertex.
+const KEPT: usize = 4;
+
+/// What [`Influences::of`] had to change, counted over the vertices of one primitive.
+#[derive(Default)]
+struct Repairs {
+    without_weight: usize,
+    negative: usize,
+    dropped: usize,
+    largest_dropped_share: f64,
+}
+
+/// Four joints and their weights a vertex, strongest first where more than one set was merged.
+pub(super) struct Influences {
+    pub joints: Vec<[u16; KEPT]>,
+    pub weights: Vec<[f32; KEPT]>,
+}
+
+impl Influences {
+    /// `None` where the primitive has no skin attributes.
+    pub fn of(attributes: &Attributes, warnings: &mut Vec<String>) -> Result<Option<Self>, Defect> {
+        let sets = attributes.joint_sets();
+        if sets == 0 {
+            return Ok(None);
+        }
+        let mut joints = Vec::with_capacity(sets as usize);
+        let mut weights = Vec::with_capacity(sets as usize);
+        for set in 0..sets {
+            joints.push(attributes.unsigned::<4>(&Semantic::Joints(set))?);
+            weights.push(attributes.floats::<4>(&Semantic::Weights(set))?);
+        }
+        let mut repairs = Repairs::default();
+        let mut influences = Self { joints: Vec::new(), weights: Vec::new() };
+        for vertex in 0..attributes.vertex_count() {
+            let all = (0..sets as usize).flat_map(|set| joints[set][vertex].into_iter().zip(weights[set][vertex]));
+            let (kept_joints, kept_weights) = strongest(all.collect(), &mut repairs);
+            let joints =
+                kept_joints.map(|joint| u16::try_from(joint).map_err(|_| format!("joint {joint} is too large")));
+            let [a, b, c, d] = joints;
+            let object = || attributes.object(&Semantic::Joints(0));
+            influences.joints.push([a.about(object)?, b.about(object)?, c.about(object)?, d.about(object)?]);
+            influences.weights.push(kept_weights);
+        }
+        repairs.report(&attributes.primitive, warnings);
+        Ok(Some(influences))
+    }
+}
+
+impl Attributes<'_> {
+    /// Sets 0, 1, … that have joints or weights; a lone one of the two is reported on reading.
+    fn joint_sets(&self) -> u32 {
+        let has = |semantic| self.accessors.contains_key(&Checked::Valid(semantic));
+        (0..).take_while(|&set| has(Semantic::Joints(set)) || has(Semantic::Weights(set))).count() as u32
+    }
+}
+
+/// The strongest influences of one vertex, renormalised. Those of no weight name joint 0.
+fn strongest(mut all: Vec<(u32, f32)>, repairs: &mut Repairs) -> ([u32; KEPT], [f32; KEPT]) {
+    let first_joint = all[0].0;
+    repairs.negative += usize::from(all.iter().any(|&(_, weight)| weight < 0.0));
+    all.retain(|&(_, weight)| weight > 0.0);
+    if all.len() > KEPT {
+        all.sort_by(|a, b| b.1.total_cmp(&a.1)); // stable: equal weights stay in the file's order
+    }
+    let total: f64 = all.iter().map(|&(_, weight)| f64::from(weight)).sum();
+    let kept: f64 = all.iter().take(KEPT).map(|&(_, weight)| f64::from(weight)).sum();
+    if all.len() > KEPT {
+        repairs.dropped += 1;
+        repairs.largest_dropped_share = repairs.largest_dropped_share.max(1.0 - kept / total);
+    }
+    if all.is_empty() {
+        repairs.without_weight += 1;
+        return ([first_joint, 0, 0, 0], [1.0, 0.0, 0.0, 0.0]);
+    }
+    let mut joints = [0; KEPT];
+    let mut weights = [0.0; KEPT];
+    for (slot, (joint, weight)) in all.into_iter().take(KEPT).enumerate() {
+        joints[slot] = joint;
+        weights[slot] = (f64::from(weight) / kept) as f32;
+    }
+    (joints, weights)
+}
+
+impl Repairs {
+    fn report(&self, primitive: &str, warnings: &mut Vec<String>) {
+        if self.without_weight > 0 {
+            let count = self.without_weight;
+            warnings.push(format!("{primitive}: {count} vertices have no joint weight; they follow their first joint"));
+        }
+        if self.negative > 0 {
+            let count = self.negative;
+            warnings.push(format!("{primitive}: {count} vertices have negative joint weights, which count as 0"));
+        }
+        if self.dropped > 0 {
+            let (count, percent) = (self.dropped, 100.0 * self.largest_dropped_share);
+            warnings.push(format!(
+                "{primitive}: {count} vertices follow more than {KEPT} joints; the strongest are kept, \
+                 which drops up to {percent:.2} % of a vertex"
+            ));
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! The stretch U that is baked into an object's voxels, and how far the scene strays from it.
+//!
+//! In: posed matrices W of nodes, or of joints with their inverse bind. Out: the mean of U over the
+//! keys of all clips (over the joints too for a skin, weighted by use), and the distance in cells
+//! by which U takes vertices away from that mean.
+
+use glam::{DMat3, DMat4, DVec3};
+
+use super::{
+    Mesh, Motion, Object, Pose, Scene,
+    bounds::{Aabb, joint_boxes},
+    motion::LAST_BITS,
+    polar::right_polar,
+};
+
+/// Poses a clip is looked at, at most.
+const MAX_STRETCH_SAMPLES: usize = 65;
+
+/// From here on an object counts as stretching.
+const STRETCHING_CELLS: f64 = 0.5;
+
+impl Scene {
+    /// Objects whose stretch strays from the mean that is baked, so far that some vertex is half a
+    /// cell or more off at some time: index into [`Scene::objects`] and the largest distance in
+    /// cells of `span` scene units. A shift common to all vertices does not count.
+    pub fn stretching_objects(&self, span: f64) -> Vec<(usize, f64)> {
+        let objects: Vec<Object> = self.mesh_nodes().collect();
+        let stretches = self.mean_stretches();
+        let mut probes: Vec<(usize, Probe)> = objects
+            .iter()
+            .enumerate()
+            .filter(|(_, object)| object.motion != Motion::Static)
+            .filter_map(|(index, object)| {
+                Some((index, Probe::new(self, object, stretches[index]?, STRETCHING_CELLS * span)))
+            })
+            .collect();
+        self.for_each_sample(|pose| {
+            for (_, probe) in &mut probes {
+                probe.look_at(self, pose);
+            }
+        });
+        let strays = probes.into_iter().map(|(index, probe)| (index, probe.largest / span));
+        strays.filter(|&(_, cells)| cells >= STRETCHING_CELLS).collect()
+    }
+
+    /// By object; `None` where no moment has a regular matrix.
+    pub(super) fn mean_stretches(&self) -> Vec<Option<DMat3>> {
+        let objects: Vec<Object> = self.mesh_nodes().collect();
+        let mut nodes = vec![Mean::EMPTY; objects.len()];
+        let mut skins: Vec<(Mean, Vec<f64>)> =
+            (0..self.skins.len()).map(|skin| (Mean::EMPTY, self.joint_uses(skin, &objects))).collect();
+        let rest = self.pose(None, 0.0);
+        for (mean, object) in nodes.iter_mut().zip(&objects).filter(|(_, object)| object.motion == Motion::Static) {
+            mean.add(&rest.world_from_node[object.node], 1.0);
+        }
+        self.for_each_sample(|pose| {
+            for (mean, object) in nodes.iter_mut().zip(&objects).filter(|(_, object)| object.motion == Motion::Rigid) {
+                mean.add(&pose.world_from_node[object.node], 1.0);
+            }
+            for (skin, (mean, uses)) in skins.iter_mut().enumerate() {
+                for (matrix, &weight) in self.joint_matrices(skin, pose).iter().zip(&*uses).filter(|&(_, &w)| w > 0.0) {
+                    mean.add(matrix, weight);
+                }
+            }
+        });
+        let means = objects.iter().zip(&nodes).map(|(object, node)| match object.motion {
+            Motion::Skinned { skin } => skins[skin].0.get(),
+            Motion::Static | Motion::Rigid => node.get(),
+        });
+        means.collect()
+    }
+
+    /// By joint, the weight it has over all vertices of all parts of a skin.
+    fn joint_uses(&self, skin: usize, objects: &[Object]) -> Vec<f64> {
+        let mut uses = vec![0.0; self.skins[skin].joints.len()];
+        let parts = objects.iter().filter(|object| object.motion == Motion::Skinned { skin });
+        for primitive in parts.flat_map(|object| &self.meshes[object.mesh].primitives) {
+            for (joints, weights) in primitive.joints.iter().zip(&primitive.weights) {
+                for (&joint, &weight) in joints.iter().zip(weights).filter(|&(_, &weight)| weight > 0.0) {
+                    uses[joint as usize] += f64::from(weight);
+                }
+            }
+        }
+        uses
+    }
+
+    /// The rest pose of a scene without clips; else each clip at its keys and half-way between.
+    fn for_each_sample(&self, mut look: impl FnMut(&Pose)) {
+        if self.clips.is_empty() {
+            look(&self.pose(None, 0.0));
+        }
+        for (index, clip) in self.clips.iter().enumerate() {
+            for time_secs in clip.sample_times(MAX_STRETCH_SAMPLES) {
+                look(&self.pose(Some(index), time_secs));
+            }
+        }
+    }
+}
+
+/// The weighted mean of the stretches of matrices; singular ones do not count.
+#[derive(Clone)]
+struct Mean {
+    sum: DMat3,
+    weight: f64,
+}
+
+impl Mean {
+    const EMPTY: Self = Self { sum: DMat3::ZERO, weight: 0.0 };
+
+    fn add(&mut self, world_from_mesh: &DMat4, weight: f64) {
+        if let Some(polar) = right_polar(DMat3::from_mat4(*world_from_mesh)) {
+            self.sum += polar.stretch * weight;
+            self.weight += weight;
+        }
+    }
+
+    fn get(&self) -> Option<DMat3> {
+        (self.weight > 0.0).then(|| without_last_bits(self.sum * (1.0 / self.weight)))
+    }
+}
+
+/// Rounds what an f32 file cannot mean: shear, and differences between axes or from 1, in the last
+/// bits. The matrix that moves the object divides by the same U, so this costs nothing; it lets
+/// a rotation be exactly the identity here.
+fn without_last_bits(stretch: DMat3) -> DMat3 {
+    let diagonal = stretch.diagonal();
+    let tolerance = LAST_BITS * diagonal.max_element();
+    if (stretch - DMat3::from_diagonal(diagonal)).to_cols_array().iter().any(|shear| shear.abs() > tolerance) {
+        return stretch;
+    }
+    if (diagonal - DVec3::ONE).abs().max_element() <= LAST_BITS {
+        return DMat3::IDENTITY;
+    }
+    let mean = diagonal.element_sum() / 3.0;
+    let uniform = (diagonal - DVec3::splat(mean)).abs().max_element() <= tolerance;
+    DMat3::from_diagonal(if uniform { DVec3::splat(mean) } else { diagonal })
+}
+
+/// Finds how far one object strays from its mean stretch.
+struct Probe<'a> {
+    object: Object,
+    mean: DMat3,
+    mesh: &'a Mesh,
+    /// Of what each joint moves; a single one for a rigid object.
+    boxes: Vec<Option<Aabb>>,
+    /// The largest distance found, scene units. Smaller ones are not worth looking at.
+    largest: f64,
+    threshold: f64,
+}
+
+impl<'a> Probe<'a> {
+    fn new(scene: &'a Scene, object: &Object, mean: DMat3, threshold: f64) -> Self {
+        let mesh = &scene.meshes[object.mesh];
+        let boxes = match object.motion {
+            Motion::Skinned { skin } => joint_boxes(mesh, scene.skins[skin].joints.len()),
+            Motion::Static | Motion::Rigid => vec![scene.mesh_box(object.mesh)],
+        };
+        Self { object: object.clone(), mean, mesh, boxes, largest: 0.0, threshold }
+    }
+
+    fn look_at(&mut self, scene: &Scene, pose: &Pose) {
+        let matrices = match self.object.motion {
+            Motion::Skinned { skin } => scene.joint_matrices(skin, pose),
+            Motion::Static | Motion::Rigid => vec![pose.world_from_node[self.object.node]],
+        };
+        let strays: Vec<Stray> = matrices.iter().zip(&self.boxes).map(|(matrix, b)| self.stray(matrix, b)).collect();
+        let bound = strays.iter().fold(0.0, |largest: f64, stray| largest.max(stray.bound));
+        if bound >= self.threshold.max(self.largest) {
+            self.largest = self.largest.max(self.largest_distance(&strays));
+        }
+    }
+
+    fn stray(&self, matrix: &DMat4, bounds: &Option<Aabb>) -> Stray {
+        let (Some(bounds), Some(polar)) = (bounds, right_polar(DMat3::from_mat4(*matrix))) else {
+            return Stray { difference: DMat3::ZERO, center: DVec3::ZERO, bound: 0.0 };
+        };
+        let (difference, center) = (polar.stretch - self.mean, bounds.center());
+        let distances = bounds.corners().map(|corner| (difference * (corner - center)).length());
+        Stray { difference, center, bound: distances.into_iter().fold(0.0, f64::max) }
+    }
+
+    fn largest_distance(&self, strays: &[Stray]) -> f64 {
+        let primitives = self.mesh.primitives.iter();
+        let distances = primitives.flat_map(|primitive| {
+            primitive.positions.iter().enumerate().map(|(vertex, position)| {
+                let point = position.as_dvec3();
+                match (self.object.motion, primitive.joints.get(vertex)) {
+                    (Motion::Skinned { .. }, Some(joints)) => {
+                        let influences =
+                            joints.iter().zip(primitive.weights[vertex]).filter(|&(_, weight)| weight > 0.0);
+                        influences.map(|(&joint, w)| f64::from(w) * strays[joint as usize].distance(point)).sum()
+                    }
+                    _ => strays[0].distance(point),
+                }
+            })
+        });
+        distances.fold(0.0, f64::max)
+    }
+}
+
+/// How one matrix's stretch differs from the mean, about the centre of what it moves.
+struct Stray {
+    difference: DMat3,
+    center: DVec3,
+    /// No vertex is farther off than this, scene units.
+    bound: f64,
+}
+
+impl Stray {
+    fn distance(&self, point: DVec3) -> f64 {
+        (self.difference * (point - self.center)).length()
+    }
+}
