@@ -30,6 +30,41 @@ pub fn warnings<'a>(sentences: impl IntoIterator<Item = &'a String>) {
     sentences.into_iter().for_each(|sentence| message(&format!("warning: {sentence}")));
 }
 
+/// A value's name in JSON.
+pub fn name_of(value: &impl Serialize) -> String {
+    match serde_json::to_value(value) {
+        Ok(serde_json::Value::String(name)) => name,
+        other => other.map(|value| value.to_string()).unwrap_or_default(),
+    }
+}
+
+/// A table that reads well on a terminal and is Markdown too. Columns of numbers align right.
+pub fn table(heads: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let rows: Vec<Vec<String>> = rows.into_iter().collect();
+    let columns: Vec<(usize, bool)> = heads
+        .iter()
+        .enumerate()
+        .map(|(column, head)| {
+            let cells = || rows.iter().filter_map(|row| row.get(column));
+            let width = cells().map(|cell| cell.chars().count()).max().unwrap_or(0);
+            let numbers = cells().all(|cell| cell.is_empty() || cell.starts_with(|c: char| c.is_ascii_digit()));
+            (width.max(head.chars().count()), numbers && !rows.is_empty())
+        })
+        .collect();
+    let line = |cells: &[String]| {
+        let padded = cells.iter().zip(&columns).map(|(cell, &(width, right))| match right {
+            true => format!(" {cell:>width$} "),
+            false => format!(" {cell:<width$} "),
+        });
+        format!("|{}|", padded.collect::<Vec<_>>().join("|"))
+    };
+    let heads: Vec<String> = heads.iter().map(|head| (*head).to_owned()).collect();
+    let rules = columns.iter().map(|&(width, right)| "-".repeat(width + 1) + if right { ":" } else { "-" });
+    let rule = format!("|{}|", rules.collect::<Vec<_>>().join("|"));
+    let lines = [line(&heads), rule].into_iter().chain(rows.iter().map(|row| line(row)));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
 /// Runs long work with a bar on the terminal, if there is one.
 pub fn with_progress<T>(what: &'static str, work: impl FnOnce(&Progress) -> T) -> T {
     let progress = Arc::new(Progress::default());
@@ -54,4 +89,21 @@ pub fn with_progress<T>(what: &'static str, work: impl FnOnce(&Progress) -> T) -
         drop(finished);
         result
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_are_markdown_with_numbers_to_the_right() {
+        let rows = [vec!["fill".to_owned(), "1.5".to_owned()], vec!["averaging".to_owned(), "12.25".to_owned()]];
+        let expected = "| kernel    |    ms |\n|-----------|------:|\n| fill      |   1.5 |\n| averaging | 12.25 |";
+        assert_eq!(table(&["kernel", "ms"], rows), expected);
+    }
+
+    #[test]
+    fn names_are_those_of_json() {
+        assert_eq!(name_of(&octolume::plan::Pass::ObjectIo), "object-io");
+    }
 }
