@@ -12,6 +12,7 @@
 pub mod data;
 pub mod gpu;
 pub mod plan;
+pub mod prepare;
 pub mod progress;
 pub mod scene;
 pub mod settings;

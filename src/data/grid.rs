@@ -25,6 +25,12 @@ impl Grid {
         self.anchor + self.offset_cells.as_dvec3() * self.span
     }
 
+    /// Position in cells from the anchor. Voxelization works there and shifts whole cells after, so
+    /// that geometry on a cell plane falls to the same side whatever the grid's corner.
+    pub fn cells_from_anchor(&self, world: DVec3) -> DVec3 {
+        (world - self.anchor) / self.span
+    }
+
     /// Eq. 2 as a matrix: world position to cell coordinates.
     pub fn grid_from_world(&self) -> DMat4 {
         // Anchor first: it is close to the scene, so the subtraction cancels nothing that matters.

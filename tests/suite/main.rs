@@ -4,3 +4,5 @@ mod device;
 mod gpu;
 mod loading;
 mod shaders;
+mod voxelization;
+mod voxelization_payload;

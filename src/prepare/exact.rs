@@ -1,0 +1,154 @@
+//! The truth that moved voxels are measured against: the posed mesh, voxelized on the grid itself.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec3, IVec3};
+use rayon::prelude::*;
+
+use super::{MotionError, Prepared, PreparedObject};
+use crate::data::grid::morton_key;
+use crate::data::packing::{unpack_normal, unpack_rgba8};
+use crate::progress::{Cancelled, Progress};
+use crate::scene::Pose;
+use crate::settings::MotionSettings;
+use crate::stages::voxelize::{self, VoxelizeInput, VoxelizePart};
+
+/// Cells that the posed triangles cover.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExactVoxels {
+    /// One bit a cell in Morton order, as the octree's leaf bits.
+    pub bits: Vec<u32>,
+    pub count: u64,
+    /// Objects that could not be voxelized in this pose, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// A covered cell with what the surface looks like there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExactVoxel {
+    pub key: u32,
+    pub albedo: [f64; 3],
+    /// Mean over the objects in the cell; short where they disagree.
+    pub normal: DVec3,
+}
+
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ExactError {
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+}
+
+impl Prepared {
+    /// Exact voxelization of a pose, in the mode of the caches. Seconds for large scenes.
+    pub fn exact(&self, motion: &MotionSettings, progress: &Progress) -> Result<ExactVoxels, ExactError> {
+        let pose = self.pose(motion)?;
+        progress.add_total(self.objects.len() as u64);
+        let corner = self.grid.offset_cells;
+        let clip = [corner, corner + IVec3::splat(self.grid.cells() as i32)];
+        let per_object = self
+            .objects
+            .par_iter()
+            .map(|object| {
+                let cells = self.posed_cells(object, &pose).map(|(positions, triangles)| {
+                    voxelize::voxelize_cells(&positions, &triangles, self.mode, Some(clip))
+                });
+                progress.advance(1)?;
+                Ok((object, cells))
+            })
+            .collect::<Result<Vec<_>, Cancelled>>()?;
+        let words = (1_usize << (3 * self.grid.depth)).div_ceil(32);
+        let mut exact = ExactVoxels { bits: vec![0; words], count: 0, warnings: Vec::new() };
+        for (object, cells) in per_object {
+            match cells {
+                Some(Ok(cells)) => cells.iter().for_each(|cell| exact.insert(*cell - corner)),
+                Some(Err(cause)) => exact.warnings.push(format!("object \"{}\": {cause}", object.object.name)),
+                None => exact.warnings.push(format!("object \"{}\" is not at a finite place", object.object.name)),
+            }
+        }
+        Ok(exact)
+    }
+
+    /// The same with albedo and normal, sorted by Morton key.
+    pub fn exact_voxels(&self, motion: &MotionSettings, progress: &Progress) -> Result<Vec<ExactVoxel>, ExactError> {
+        let pose = self.pose(motion)?;
+        let caches = self
+            .objects
+            .par_iter()
+            .filter_map(|object| Some((object, self.posed_input(object, &pose)?)))
+            .map(|(_, input)| voxelize::voxelize(&input, progress))
+            .collect::<Vec<_>>();
+        let mut sums: BTreeMap<u32, (f64, [f64; 3], DVec3)> = BTreeMap::new();
+        for cache in caches.into_iter().flatten() {
+            for (cell, voxel) in cache.cells().zip(&cache.voxels) {
+                let Some(key) = self.key_inside(cell) else { continue };
+                let sum = sums.entry(key).or_default();
+                let albedo = unpack_rgba8(voxel.albedo);
+                sum.0 += 1.0;
+                (0..3).for_each(|channel| sum.1[channel] += albedo[channel]);
+                sum.2 += unpack_normal(voxel.normal);
+            }
+        }
+        progress.advance(0)?;
+        let mean = |(key, (count, albedo, normal)): (u32, (f64, [f64; 3], DVec3))| ExactVoxel {
+            key,
+            albedo: albedo.map(|sum| sum / count),
+            normal: normal / count,
+        };
+        Ok(sums.into_iter().map(mean).collect())
+    }
+
+    /// Key of a cell counted from the anchor, if the grid holds it.
+    fn key_inside(&self, cell: IVec3) -> Option<u32> {
+        let cell = cell - self.grid.offset_cells;
+        let inside = cell.cmpge(IVec3::ZERO).all() && cell.cmplt(IVec3::splat(self.grid.cells() as i32)).all();
+        inside.then(|| morton_key(cell.to_array().map(|c| c as u32)))
+    }
+
+    /// Positions of all primitives in cells from the anchor and their triangles, renumbered; `None` for an
+    /// object that is not at a finite place.
+    fn posed_cells(&self, object: &PreparedObject, pose: &Pose) -> Option<(Vec<DVec3>, Vec<[u32; 3]>)> {
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for (index, primitive) in self.scene.meshes[object.object.mesh].primitives.iter().enumerate() {
+            let first = positions.len() as u32;
+            positions.extend(self.primitive_cells(object, index, pose));
+            triangles.extend(primitive.triangles.iter().map(|triangle| triangle.map(|vertex| first + vertex)));
+        }
+        positions.iter().all(|position| position.is_finite()).then_some((positions, triangles))
+    }
+
+    fn primitive_cells(&self, object: &PreparedObject, primitive: usize, pose: &Pose) -> Vec<DVec3> {
+        let positions = self.scene.posed_positions(&object.object, primitive, pose);
+        positions.into_iter().map(|position| self.grid.cells_from_anchor(position)).collect()
+    }
+
+    fn posed_input(&self, object: &PreparedObject, pose: &Pose) -> Option<VoxelizeInput<'_>> {
+        let primitives = self.scene.meshes[object.object.mesh].primitives.iter().enumerate();
+        let parts: Vec<VoxelizePart> = primitives
+            .map(|(index, primitive)| VoxelizePart {
+                primitive,
+                positions_cells: self.primitive_cells(object, index, pose),
+                normals: self.scene.posed_normals(&object.object, index, pose),
+            })
+            .collect();
+        let finite = parts.iter().all(|part| part.positions_cells.iter().all(|position| position.is_finite()));
+        finite.then(|| VoxelizeInput {
+            parts,
+            materials: &self.scene.materials,
+            textures: &self.textures,
+            mode: self.mode,
+            with_joints: false,
+        })
+    }
+}
+
+impl ExactVoxels {
+    fn insert(&mut self, cell: IVec3) {
+        let key = morton_key(cell.to_array().map(|c| c as u32));
+        let (word, bit) = (key as usize / 32, 1 << (key % 32));
+        self.count += u64::from(self.bits[word] & bit == 0);
+        self.bits[word] |= bit;
+    }
+}

@@ -1,0 +1,134 @@
+//! Grids and lattices (section 4.2, Eqs. 1 and 2). A cache's origin is an integer multiple of δ in
+//! its own space; the grid's corner is the scene's anchor plus integers · δ, so nothing depends on
+//! world zero. Static objects used once lie on the grid's own lattice and reproduce exactly.
+
+use std::collections::HashMap;
+
+use glam::{DMat3, DMat4, DVec3, IVec3, Vec3};
+
+use super::{PrepareError, PreparedObject};
+use crate::data::grid::Grid;
+use crate::data::packing::unpack_position;
+use crate::data::voxel_cache::{Tile, VoxelCache};
+use crate::scene::bounds::Aabb;
+use crate::scene::geometry::normal_matrix;
+use crate::scene::{Motion, Object, Pose, Scene};
+use crate::settings::Discretization;
+
+/// Where an object's cache lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lattice {
+    /// The grid's own, counted from its anchor, with the rest pose baked in: a static object.
+    Grid { grid: Grid, world_from_mesh: DMat4 },
+    /// The object's: stretch baked in, origin at zero of the space that node or joints move.
+    Own { cells_from_mesh: DMat4, space_from_cells: DMat4 },
+}
+
+impl Lattice {
+    /// What voxelization is given.
+    pub fn cells_from_mesh(&self, position: DVec3) -> DVec3 {
+        match self {
+            Self::Grid { grid, world_from_mesh } => grid.cells_from_anchor(world_from_mesh.transform_point3(position)),
+            Self::Own { cells_from_mesh, .. } => cells_from_mesh.transform_point3(position),
+        }
+    }
+
+    /// Lattice cells to the world at rest, or to the space that node or joints move.
+    pub fn space_from_cells(&self) -> DMat4 {
+        match self {
+            Self::Grid { grid, .. } => {
+                DMat4::from_scale_rotation_translation(DVec3::splat(grid.span), glam::DQuat::IDENTITY, grid.anchor)
+            }
+            Self::Own { space_from_cells, .. } => *space_from_cells,
+        }
+    }
+
+    /// The matrix of normals, up to scale.
+    pub fn linear(&self) -> DMat3 {
+        match self {
+            Self::Grid { world_from_mesh, .. } => DMat3::from_mat4(*world_from_mesh),
+            Self::Own { cells_from_mesh, .. } => DMat3::from_mat4(*cells_from_mesh),
+        }
+    }
+
+    /// Equal bits mean equal caches.
+    pub fn bits(&self) -> [u64; 16] {
+        let matrix = match self {
+            Self::Grid { world_from_mesh, .. } => world_from_mesh,
+            Self::Own { cells_from_mesh, .. } => cells_from_mesh,
+        };
+        matrix.to_cols_array().map(f64::to_bits)
+    }
+
+    /// The rest pose is baked in: the object never moves by itself.
+    pub fn is_grid(&self) -> bool {
+        matches!(self, Self::Grid { .. })
+    }
+}
+
+/// Cells left free around the scene, so that rounding touches no border.
+const MARGIN_CELLS: u32 = 1;
+
+/// The grid around the scene's posed bounds, centred by whole cells.
+pub fn grid_around(bounds: Option<Aabb>, discretization: &Discretization) -> Result<Grid, PrepareError> {
+    let cells = discretization.grid;
+    if !Discretization::GRIDS.contains(&cells) {
+        return Err(PrepareError::Grid(cells));
+    }
+    let (anchor, size) = bounds.map_or((DVec3::ZERO, DVec3::ZERO), |bounds| (bounds.min, bounds.size()));
+    let fitting = size.max_element() / f64::from(cells - 2 * MARGIN_CELLS);
+    let span = discretization.span.unwrap_or(if fitting > 0.0 { fitting } else { 1.0 });
+    if !(span.is_finite() && span > 0.0) {
+        return Err(PrepareError::Span(span));
+    }
+    // Rounded off-centre: scenes whose extents are simple ratios would sit on a tie, and a last-bit
+    // difference in their bounds would shift the grid by a cell.
+    let free = (DVec3::splat(f64::from(cells)) - size / span) / 2.0;
+    let offset_cells = -(free + 0.381_966).floor().as_ivec3();
+    Ok(Grid { anchor, offset_cells, span, depth: discretization.depth() })
+}
+
+/// The objects that can be seen at some time, each on its lattice. `cache` is numbered later.
+pub fn visible_objects(scene: &Scene, grid: &Grid) -> Vec<PreparedObject> {
+    let hidden = scene.hidden_objects();
+    let rest = scene.pose(None, 0.0);
+    let objects = scene.objects();
+    let mut uses: HashMap<usize, usize> = HashMap::new();
+    for object in &objects {
+        *uses.entry(object.mesh).or_default() += 1;
+    }
+    let visible = objects.into_iter().enumerate().filter(|(index, _)| !hidden.contains(index));
+    visible
+        .map(|(_, object)| {
+            let lattice = lattice_of(&object, &rest, grid, uses[&object.mesh] == 1);
+            PreparedObject { object, cache: 0, lattice }
+        })
+        .collect()
+}
+
+fn lattice_of(object: &Object, rest: &Pose, grid: &Grid, used_once: bool) -> Lattice {
+    if object.motion == Motion::Static && used_once {
+        return Lattice::Grid { grid: *grid, world_from_mesh: rest.world_from_node[object.node] };
+    }
+    Lattice::Own {
+        cells_from_mesh: DMat4::from_scale(DVec3::splat(1.0 / grid.span)) * DMat4::from_mat3(object.stretch),
+        space_from_cells: DMat4::from_mat3(object.stretch.inverse()) * DMat4::from_scale(DVec3::splat(grid.span)),
+    }
+}
+
+/// Normals through the stretch: sign(det)·cofactor, any length.
+pub fn normals_in_cells(lattice: &Lattice, normals: &[Vec3]) -> Vec<DVec3> {
+    // Scaled to the size of one, so that tiny spans do not underflow the cofactor.
+    let linear = lattice.linear();
+    let size = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
+    let matrix = normal_matrix(&(linear * (1.0 / size.max(f64::MIN_POSITIVE))));
+    normals.iter().map(|normal| (matrix * normal.as_dvec3()).normalize_or_zero()).collect()
+}
+
+/// Largest position of a tile's voxels, plus one, per axis.
+pub fn tile_extent(cache: &VoxelCache, tile: &Tile) -> IVec3 {
+    let voxels = &cache.voxels[tile.voxels.start as usize..tile.voxels.end as usize];
+    voxels.iter().fold(IVec3::ZERO, |extent, voxel| {
+        extent.max(IVec3::from_array(unpack_position(voxel.position).map(|c| c as i32 + 1)))
+    })
+}

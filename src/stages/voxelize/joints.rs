@@ -1,0 +1,85 @@
+//! Joint weights of a voxel: sums over the triangles in its cell, then four integers that sum to 255.
+
+use glam::DVec3;
+
+use crate::data::voxel_cache::VoxelJoints;
+use crate::scene::Primitive;
+
+/// A corner's weight of 1, as an integer.
+const WEIGHT_ONE: f64 = 65536.0;
+const TOTAL: u64 = 255;
+
+/// Integer weight sums by joint; empty at the start of a cell.
+#[derive(Debug, Default)]
+pub(super) struct JointSums {
+    sums: Vec<(u16, u64)>,
+}
+
+/// Joints and weights of a vertex. Without a positive weight it moves rigidly with its first joint.
+fn influences(primitive: &Primitive, vertex: usize) -> ([u16; 4], [f32; 4]) {
+    let joints = primitive.joints.get(vertex).copied().unwrap_or_default();
+    let weights = primitive.weights.get(vertex).copied().unwrap_or_default();
+    if weights.iter().any(|&weight| weight > 0.0) { (joints, weights) } else { (joints, [1.0, 0.0, 0.0, 0.0]) }
+}
+
+/// Vertices that [`influences`] had to fall back for.
+pub(super) fn unweighted_vertices(primitive: &Primitive) -> u64 {
+    let weighted = primitive.weights.iter().filter(|weights| weights.iter().any(|&weight| weight > 0.0)).count();
+    primitive.positions.len().saturating_sub(weighted) as u64
+}
+
+impl JointSums {
+    pub fn clear(&mut self) {
+        self.sums.clear();
+    }
+
+    /// Adds the weights interpolated at barycentric `place`, times `weight`.
+    pub fn add(&mut self, primitive: &Primitive, vertices: [u32; 3], place: DVec3, weight: u64) {
+        for (vertex, share) in vertices.into_iter().zip(place.to_array()) {
+            let (joints, weights) = influences(primitive, vertex as usize);
+            for (joint, joint_weight) in joints.into_iter().zip(weights) {
+                let amount = weight * (share * f64::from(joint_weight.max(0.0)) * WEIGHT_ONE).round() as u64;
+                if amount == 0 {
+                    continue;
+                }
+                match self.sums.iter_mut().find(|(known, _)| *known == joint) {
+                    Some((_, sum)) => *sum += amount,
+                    None => self.sums.push((joint, amount)),
+                }
+            }
+        }
+    }
+
+    /// The four strongest, strongest first (of equals the smaller index), summing to exactly 255.
+    pub fn quantized(&mut self) -> VoxelJoints {
+        self.sums.sort_unstable_by_key(|&(joint, sum)| (std::cmp::Reverse(sum), joint));
+        self.sums.truncate(4);
+        let total: u64 = self.sums.iter().map(|&(_, sum)| sum).sum();
+        let mut voxel = VoxelJoints { joints: [0; 4], weights: [0; 4] };
+        if total == 0 {
+            voxel.weights[0] = TOTAL as u8;
+            return voxel;
+        }
+        let mut remainders = [(0, 0, 0); 4];
+        let mut left = TOTAL;
+        for (slot, &(joint, sum)) in self.sums.iter().enumerate() {
+            let product = u128::from(sum) * u128::from(TOTAL);
+            let whole = (product / u128::from(total)) as u64;
+            voxel.joints[slot] = joint;
+            voxel.weights[slot] = whole as u8;
+            remainders[slot] = (product % u128::from(total), joint, slot);
+            left -= whole;
+        }
+        let used = &mut remainders[..self.sums.len()];
+        used.sort_unstable_by_key(|&(remainder, joint, _)| (std::cmp::Reverse(remainder), joint));
+        for &(_, _, slot) in used.iter().take(left as usize) {
+            voxel.weights[slot] += 1;
+        }
+        for slot in 0..4 {
+            if voxel.weights[slot] == 0 {
+                voxel.joints[slot] = 0;
+            }
+        }
+        voxel
+    }
+}
