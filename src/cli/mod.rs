@@ -13,6 +13,7 @@ mod output;
 mod plan;
 mod render;
 mod session;
+mod statistics;
 mod values;
 mod voxels;
 mod window;

@@ -72,7 +72,7 @@ impl Common {
         }
         set(&mut settings.motion.turn_degrees, self.turn);
         if let (Some(eye), Some(target)) = (self.eye, self.target) {
-            let fov_y_degrees = self.fov.unwrap_or(OrbitCamera::DEFAULT_FOV_DEGREES);
+            let fov_y_degrees = self.fov.unwrap_or(OrbitCamera::default().fov_y_degrees);
             settings.look.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
         }
         Ok(settings)

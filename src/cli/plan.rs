@@ -6,11 +6,8 @@ use clap::{Args, ValueEnum};
 use octolume::settings::{ColorBy, Filter, Settings};
 
 use super::options::{Common, Moment};
-use super::session::Session;
+use super::session::{NO_PICTURE, Session};
 use super::{Usage, output};
-
-/// The plan does not depend on it.
-const SIZE_PX: [u32; 2] = [64, 64];
 
 /// Lists the passes of a frame, and why each runs, is reused or skipped
 #[derive(Debug, Args)]
@@ -54,11 +51,11 @@ impl Plan {
         self.moment.apply(&mut settings);
         settings.check().map_err(Usage)?;
         let mut session = Session::open(&self.scene, &self.common, &settings)?;
-        session.engine.request(&settings, SIZE_PX)?;
+        session.engine.request(&settings, NO_PICTURE)?;
         if let Some(change) = self.after {
             session.engine.run_to_end()?;
             change.apply(&mut settings);
-            session.engine.request(&settings, SIZE_PX)?;
+            session.engine.request(&settings, NO_PICTURE)?;
         }
         let plan = session.engine.plan();
         if self.json {

@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use anyhow::Context;
 use octolume::engine::Engine;
 use octolume::gpu::Gpu;
 use octolume::prepare::{Prepared, prepare};
@@ -17,6 +16,9 @@ use super::output;
 /// Shown when no scene is named.
 pub const DEFAULT_SCENE: &str = "courtyard";
 
+/// Picture size where nothing is looked at.
+pub const NO_PICTURE: [u32; 2] = [1, 1];
+
 /// An engine that holds a scene's voxels.
 pub struct Session {
     pub prepared: Arc<Prepared>,
@@ -26,11 +28,8 @@ pub struct Session {
 impl Session {
     /// Opens and voxelizes a scene for the settings, and takes the adapter the options name.
     pub fn open(scene: &Path, common: &Common, settings: &Settings) -> anyhow::Result<Self> {
-        let scene = Arc::new(open_scene(scene)?);
         let mut engine = take_gpu(common)?;
-        let prepared = voxelize(scene, settings, None)?;
-        output::warnings(&prepared.warnings);
-        warn_of_time(&prepared, settings)?;
+        let prepared = prepare_only(scene, settings)?;
         engine.set_prepared(Some(Arc::clone(&prepared)));
         Ok(Self { prepared, engine })
     }
@@ -50,17 +49,26 @@ impl Session {
 
     /// Voxelizes the posed mesh exactly: the truth for ghost and accuracy.
     pub fn take_exact(&mut self, settings: &Settings) -> anyhow::Result<()> {
-        let (prepared, mode) = (&self.prepared, settings.discretization.mode);
+        let prepared = &self.prepared;
         let exact = output::with_progress("voxelizing the posed mesh", |progress| {
-            prepared.exact(&settings.motion, mode, progress)
+            prepared.exact(&settings.motion, progress)
         })?;
+        output::warnings(&exact.warnings);
         self.engine.set_exact(Some(Arc::new(exact)));
         Ok(())
     }
 }
 
+/// Opens and voxelizes a scene, and says what there is to know about it.
+pub fn prepare_only(scene: &Path, settings: &Settings) -> anyhow::Result<Arc<Prepared>> {
+    let prepared = voxelize(Arc::new(open_scene(scene)?), settings, None)?;
+    output::warnings(&prepared.warnings);
+    warn_of_time(&prepared, settings)?;
+    Ok(prepared)
+}
+
 /// Opens a built-in scene by its name, or a file.
-pub fn open_scene(scene: &Path) -> anyhow::Result<Scene> {
+fn open_scene(scene: &Path) -> anyhow::Result<Scene> {
     let progress = Progress::default();
     let name = scene.to_str().unwrap_or_default();
     Ok(match builtin::bytes(name) {
@@ -76,11 +84,10 @@ fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
 }
 
 fn voxelize(scene: Arc<Scene>, settings: &Settings, reuse: Option<&Prepared>) -> anyhow::Result<Arc<Prepared>> {
-    let name = scene.name.clone();
     let prepared = output::with_progress("voxelizing", |progress| {
         prepare(scene, &settings.discretization, reuse, progress)
     });
-    Ok(Arc::new(prepared.with_context(|| name)?))
+    Ok(Arc::new(prepared?))
 }
 
 /// A clip holds its last pose after its end: said, because it looks like a stopped animation.

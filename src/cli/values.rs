@@ -5,14 +5,13 @@ use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use octolume::settings::View;
-use serde::Deserialize;
-use serde::de::IntoDeserializer;
 use serde::de::value::Error as NameError;
+use serde::de::{DeserializeOwned, IntoDeserializer};
 
 const FRAMES_PER_SEC: RangeInclusive<f64> = 0.001..=1000.0;
 
 /// A choice by the name that settings files use too.
-pub fn name<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, NameError> {
+pub fn name<T: DeserializeOwned>(text: &str) -> Result<T, NameError> {
     T::deserialize(text.into_deserializer())
 }
 
