@@ -5,9 +5,9 @@
 
 use serde::Serialize;
 
-use crate::engine::FilterAccuracy;
+use crate::engine::FilterReport;
 use crate::prepare::{MotionError, Prepared};
-use crate::settings::{Filter, MotionSettings};
+use crate::settings::MotionSettings;
 
 /// Turns of a scene that plays no clip: not at all, a little, and by no simple fraction.
 pub const STATIC_TURNS_DEGREES: [f64; 3] = [0.0, 10.0, 37.0];
@@ -48,22 +48,21 @@ pub struct Row {
     pub turn_degrees: [f64; 3],
     pub grid: u32,
     pub span: f64,
-    pub filter: Filter,
     /// Cells of the exact posed voxelization.
     pub exact: u64,
     #[serde(flatten)]
-    pub measured: FilterAccuracy,
+    pub measured: FilterReport,
 }
 
 impl Row {
-    /// Of the exact cells.
-    pub fn holes_percent(&self) -> f64 {
-        percent(self.measured.holes, self.exact)
+    /// Of the exact cells; `None` where they are not known.
+    pub fn holes_percent(&self) -> Option<f64> {
+        Some(percent(self.measured.holes?, self.exact))
     }
 
-    /// Of the cells that moved voxels reached.
-    pub fn spill_percent(&self) -> f64 {
-        percent(self.measured.spill, self.measured.leaves)
+    /// Of the cells that moved voxels reached; `None` where the exact ones are not known.
+    pub fn spill_percent(&self) -> Option<f64> {
+        Some(percent(self.measured.spill?, self.measured.leaves))
     }
 }
 

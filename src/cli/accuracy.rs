@@ -102,23 +102,23 @@ impl Accuracy {
         settings.look.view = View::Voxels;
         session.run(settings, NO_PICTURE)?;
         let report = session.engine.accuracy().context("the scene has no voxels to compare")?;
+        let exact = report.exact_cells.context("the posed mesh was not compared")?;
         let clip = session.prepared.clip_index(&settings.motion)?;
-        let row = |filter, measured| Row {
+        let row = |measured| Row {
             scene: session.prepared.scene.name.clone(),
             clip: clip.map(|clip| session.prepared.scene.clips[clip].name.clone()).unwrap_or_default(),
             time_secs: settings.motion.time_secs,
             turn_degrees: settings.motion.turn_degrees,
             grid: settings.discretization.grid,
             span: session.prepared.grid.span,
-            filter,
-            exact: report.exact_cells,
+            exact,
             measured,
         };
-        let rows = vec![row(Filter::Nearest, report.nearest), row(Filter::Split, report.split)];
+        let rows: Vec<Row> = [report.nearest, report.split].into_iter().flatten().map(row).collect();
         if let Some(folder) = &self.output {
             for row in &rows {
-                let name = output::name_of(&row.filter);
-                draw_ghost(session, settings, row.filter, &folder.join(format!("ghost-{}-{pose}-{name}.png", row.grid)))?;
+                let name = output::name_of(&row.measured.filter);
+                draw_ghost(session, settings, row.measured.filter, &folder.join(format!("ghost-{}-{pose}-{name}.png", row.grid)))?;
             }
         }
         Ok(rows)
@@ -162,12 +162,16 @@ fn cells(row: &Row) -> Vec<String> {
         format!("{:.3}", row.time_secs),
         format!("{x} {y} {z}"),
         row.grid.to_string(),
-        output::name_of(&row.filter),
+        output::name_of(&row.measured.filter),
         format!("{:.2}", row.measured.kernel_ms),
         row.exact.to_string(),
         row.measured.leaves.to_string(),
         format!("{:.1}", row.measured.bytes as f64 / 1e6),
-        format!("{:.3}", row.holes_percent()),
-        format!("{:.3}", row.spill_percent()),
+        percent(row.holes_percent()),
+        percent(row.spill_percent()),
     ]
+}
+
+fn percent(share: Option<f64>) -> String {
+    share.map(|percent| format!("{percent:.3}")).unwrap_or_default()
 }

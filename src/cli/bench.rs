@@ -4,7 +4,6 @@
 //! the same run; the ratio says how far above it the kernel is.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::{Instant, SystemTime};
 
 use anyhow::Context;
@@ -157,7 +156,7 @@ impl Bench {
 
 /// Everything anew; the kernels' times and the time by the clock.
 fn rebuild_once(session: &mut Session, settings: &Settings) -> anyhow::Result<(Vec<KernelTiming>, f64)> {
-    session.engine.set_prepared(Some(Arc::clone(&session.prepared)));
+    session.engine.invalidate();
     let started = Instant::now();
     session.run(settings, SIZE_PX)?;
     let wall_ms = started.elapsed().as_secs_f64() * 1e3;
