@@ -1,12 +1,11 @@
 //! Everything a person can set. Window and command line fill the same struct, a screenshot carries
 //! it, and the engine compares it with what was built to decide what a frame must do.
 
-use std::ops::RangeInclusive;
-
 use serde::{Deserialize, Serialize};
 
 use crate::data::voxel_cache::VoxelizationMode;
 use crate::scene::OrbitCamera;
+use crate::scene::camera::FOV_Y_DEGREES;
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -37,9 +36,8 @@ fn check_camera(camera: &OrbitCamera) -> Result<(), String> {
     if camera.eye == camera.target {
         return Err("the camera's eye and target must differ".to_owned());
     }
-    let possible = Look::FOV_DEGREES;
-    if !possible.contains(&camera.fov_y_degrees) {
-        let (least, most) = (possible.start(), possible.end());
+    if !FOV_Y_DEGREES.contains(&camera.fov_y_degrees) {
+        let (least, most) = (FOV_Y_DEGREES.start(), FOV_Y_DEGREES.end());
         return Err(format!("a field of view of {} degrees is not in {least} to {most}", camera.fov_y_degrees));
     }
     Ok(())
@@ -174,11 +172,6 @@ pub struct Look {
     pub camera: Option<OrbitCamera>,
     /// Also measures the filter not shown, and both against the exact posed voxelization.
     pub accuracy: bool,
-}
-
-impl Look {
-    /// Fields of view a camera may have.
-    pub const FOV_DEGREES: RangeInclusive<f64> = 1.0..=170.0;
 }
 
 impl Default for Look {

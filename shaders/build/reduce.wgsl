@@ -96,7 +96,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         let word = 8u * thread + i;
         let children = child_word(word);
         occupied_bits |= any_in_bytes(children) << (4u * i);
-        leaves += countOneBits(children);
+        if !children_have_blocks {
+            leaves += countOneBits(children);
+        }
         if has_blocks {
             var below = children;
             if DUMMIES {
@@ -112,7 +114,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     if has_blocks {
         blocks[octree.levels[params.level].blocks_word + thread] = block_bits;
     }
-    if !children_have_blocks && leaves != 0u {
-        atomicAdd(&counters[2u * COUNTER_LEAVES], leaves);
+    if occupied_bits != 0u {
+        atomicAdd(&counters[2u * (COUNTER_OCCUPIED + params.level)], countOneBits(occupied_bits));
+    }
+    if leaves != 0u {
+        atomicAdd(&counters[2u * (COUNTER_OCCUPIED + octree.depth)], leaves);
     }
 }

@@ -8,6 +8,8 @@ struct WorkItem {
     first_slot: u32,
     first_voxel: u32,
     part: u32,
+    // Object number in the scene.
+    object: u32,
 }
 
 fn work_item(thread: u32) -> WorkItem {

@@ -119,6 +119,18 @@ pub struct WorkItem {
     /// Into the uploaded caches.
     pub first_voxel: u32,
     pub part: u32,
+    /// Object number in the scene.
+    pub object: u32,
+}
+
+/// A part that has something to move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorkPart {
+    pub part: u32,
+    pub object: u32,
+    /// Into the uploaded caches.
+    pub first_voxel: u32,
+    pub voxels: u32,
 }
 
 /// What the GPU walks: one thread a voxel, without padding.
@@ -132,20 +144,20 @@ pub struct WorkList {
 }
 
 impl WorkList {
-    /// `parts`: number, first cache voxel and voxel count of each part, in thread order.
-    pub fn new(pages: &Pages, parts: impl IntoIterator<Item = (u32, u32, u32)>) -> Self {
+    /// `parts` in thread order.
+    pub fn new(pages: &Pages, parts: impl IntoIterator<Item = WorkPart>) -> Self {
         let mut list = Self::default();
-        for (part, first_voxel, voxels) in parts {
-            list.push_part(pages.segments(part), part, first_voxel, voxels);
+        for part in parts {
+            list.push_part(pages.segments(part.part), part);
         }
-        list.items.push(WorkItem { first_thread: u32::MAX, first_slot: 0, first_voxel: 0, part: 0 });
+        list.items.push(WorkItem { first_thread: u32::MAX, ..WorkItem::zeroed() });
         list.hints = (0..list.threads.div_ceil(WORK_HINT_THREADS))
             .map(|hint| list.items.partition_point(|item| item.first_thread <= hint * WORK_HINT_THREADS) as u32 - 1)
             .collect();
         list
     }
 
-    fn push_part(&mut self, segments: &[u32], part: u32, first_voxel: u32, voxels: u32) {
+    fn push_part(&mut self, segments: &[u32], WorkPart { part, object, first_voxel, voxels }: WorkPart) {
         let mut done = 0;
         let mut previous = None;
         for &segment in segments {
@@ -153,7 +165,7 @@ impl WorkList {
             if previous.is_none_or(|previous: u32| previous + 1 != segment) {
                 let first_thread = self.threads + done;
                 let first_slot = segment * SEGMENT_SLOTS;
-                self.items.push(WorkItem { first_thread, first_slot, first_voxel: first_voxel + done, part });
+                self.items.push(WorkItem { first_thread, first_slot, first_voxel: first_voxel + done, part, object });
             }
             previous = Some(segment);
             done += SEGMENT_SLOTS.min(voxels - done);
@@ -187,11 +199,12 @@ mod tests {
         pages.enter(1, 10);
         pages.leave(0);
         pages.enter(2, 700);
-        let list = WorkList::new(&pages, [(1, 300, 10), (2, 310, 700)]);
+        let work = |part, first_voxel, voxels| WorkPart { part, object: 7, first_voxel, voxels };
+        let list = WorkList::new(&pages, [work(1, 300, 10), work(2, 310, 700)]);
         assert_eq!(list.threads, 710);
         // Part 2 takes the two freed segments and one behind part 1's.
         assert_eq!(list.items.len(), 4);
-        assert_eq!(list.items[1], WorkItem { first_thread: 10, first_slot: 0, first_voxel: 310, part: 2 });
+        assert_eq!(list.items[1], WorkItem { first_thread: 10, first_slot: 0, first_voxel: 310, part: 2, object: 7 });
         assert_eq!(list.items[2].first_thread, 10 + 512);
         assert_eq!(list.hints.len(), 12);
     }

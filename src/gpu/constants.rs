@@ -5,13 +5,13 @@ use crate::data::packing::NORMAL_MAX;
 use crate::data::pages::WORK_HINT_THREADS;
 use crate::data::voxel_cache::TILE_CELLS;
 use crate::stages::build::scan::SCAN_CHUNK;
-use crate::stages::build::{COUNTER_CLIPPED, COUNTER_LEAVES};
+use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
     ("ALBEDO_NODE_SCALE", ALBEDO_NODE_SCALE),
     ("COUNTER_CLIPPED", COUNTER_CLIPPED),
-    ("COUNTER_LEAVES", COUNTER_LEAVES),
+    ("COUNTER_OCCUPIED", COUNTER_OCCUPIED),
     ("FRACTION_BITS", FRACTION_BITS),
     ("FRACTION_ONE", 1 << FRACTION_BITS),
     ("FULL_WEIGHT", FULL_WEIGHT),

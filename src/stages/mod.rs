@@ -4,6 +4,7 @@
 pub mod average;
 pub mod bench;
 pub mod build;
+pub mod compare;
 pub mod fill;
 pub mod transform;
 pub mod voxelize;

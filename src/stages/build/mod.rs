@@ -11,12 +11,14 @@ pub mod scan_sum;
 
 /// Counter of the split weight that fell outside the grid, in 2^-24 voxels.
 pub const COUNTER_CLIPPED: u32 = 0;
-/// Counter of occupied leaves.
-pub const COUNTER_LEAVES: u32 = 1;
+/// Counter of the occupied nodes of level 0; those of levels 1 … depth follow.
+pub const COUNTER_OCCUPIED: u32 = 1;
 /// 64-bit counters, two words each, cleared before a build.
-pub const COUNTERS: u32 = 2;
+pub const COUNTERS: u32 = COUNTER_OCCUPIED + MAX_DEPTH + 1;
 
 use bytemuck::{Pod, Zeroable};
+
+use crate::data::octree::MAX_DEPTH;
 
 /// Uniform of the kernels that work on one level.
 #[repr(C)]

@@ -4,6 +4,7 @@
 pub mod count;
 pub mod gather;
 pub mod gather_heavy;
+pub mod number_objects;
 pub mod place;
 
 use crate::gpu::GpuBuffer;

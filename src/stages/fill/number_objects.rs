@@ -1,0 +1,35 @@
+//! Numbers each leaf with the object that fills it most, where somebody looks at objects.
+
+use super::Filling;
+use crate::data::octree::OctreeParams;
+use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::settings::Filter;
+use crate::stages::transform::MovingVoxels;
+
+/// One word a leaf; the object is `OBJECT_MASK − (word & OBJECT_MASK)`.
+pub const OBJECT_MASK: u32 = 0xffff;
+
+pub fn record(
+    gpu: &Gpu,
+    frame: &mut Recorder,
+    voxels: &MovingVoxels,
+    (octree, filter): (&OctreeParams, Filter),
+    fill: &Filling,
+    (leaf_bits, leaf_objects): (&GpuBuffer, &GpuBuffer),
+) {
+    let threads = u64::from(voxels.threads());
+    frame.clear(leaf_objects);
+    frame
+        .pass(&gpu.kernel("fill/number_objects.wgsl", &[("SPLIT", filter.is_split())]))
+        .uniform("octree", octree)
+        .bind("work_items", &voxels.work_items)
+        .bind("work_hints", &voxels.work_hints)
+        .bind("world_voxels", &voxels.world_voxels)
+        .bind("blocks", &fill.blocks)
+        .bind("ranks", &fill.ranks)
+        .bind("leaf_bits", leaf_bits)
+        .bind("block_starts", &fill.block_starts)
+        .bind("leaf_objects", leaf_objects)
+        .bytes_moved(threads * 16 + u64::from(octree.leaf_count) * 4)
+        .dispatch(threads);
+}
