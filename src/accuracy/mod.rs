@@ -39,31 +39,31 @@ pub fn turned(motion: &MotionSettings, turns_degrees: &[f64]) -> Vec<MotionSetti
     turns_degrees.iter().map(turned).collect()
 }
 
-/// One filter in one pose on one grid.
+/// One pose on one grid, both filters.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     pub scene: String,
-    pub clip: String,
+    pub clip: Option<String>,
     pub time_secs: f64,
     pub turn_degrees: [f64; 3],
     pub grid: u32,
     pub span: f64,
     /// Cells of the exact posed voxelization.
     pub exact: u64,
-    #[serde(flatten)]
-    pub measured: FilterReport,
+    pub nearest: FilterReport,
+    pub split: FilterReport,
 }
 
 impl Row {
-    /// Of the exact cells; `None` where they are not known.
-    pub fn holes_percent(&self) -> Option<f64> {
-        Some(percent(self.measured.holes?, self.exact))
+    /// Of the exact cells; `None` where holes were not counted.
+    pub fn holes_percent(&self, filter: &FilterReport) -> Option<f64> {
+        Some(percent(filter.holes?, self.exact))
     }
+}
 
-    /// Of the cells that moved voxels reached; `None` where the exact ones are not known.
-    pub fn spill_percent(&self) -> Option<f64> {
-        Some(percent(self.measured.spill?, self.measured.leaves))
-    }
+/// Of the cells that moved voxels reached; `None` where spill was not counted.
+pub fn spill_percent(filter: &FilterReport) -> Option<f64> {
+    Some(percent(filter.spill?, filter.leaves))
 }
 
 fn percent(part: u64, whole: u64) -> f64 {

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::Args;
-use octolume::accuracy::{self, Row};
+use octolume::accuracy::{self, Row, spill_percent};
+use octolume::engine::FilterReport;
 use octolume::export;
 use octolume::settings::{Filter, MotionSettings, Settings, View};
 
@@ -19,16 +20,17 @@ const SIZE_PX: [u32; 2] = [960, 540];
 /// Compares moved voxels, nearest and split, with the posed mesh voxelized exactly
 #[derive(Debug, Args)]
 pub struct Accuracy {
-    /// A .gltf or .glb file, or the name of a built-in scene
-    scene: PathBuf,
+    /// .gltf or .glb files, or names of built-in scenes
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
     /// Prints JSON
     #[arg(long)]
     json: bool,
-    /// A folder to write the table (.csv and .md) and a ghost picture a row into
+    /// A folder to write the table into, .csv and .md, and two ghost pictures a row
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Moments to compare, seconds; otherwise at 1/4, 1/2 and 3/4 of the clip
-    #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = values::number)]
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = values::number, allow_hyphen_values = true)]
     times: Vec<f64>,
     /// Turns of the whole scene about its vertical axis, degrees; otherwise 0, 10 and 37 if no clip is played
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = values::number, allow_hyphen_values = true)]
@@ -43,33 +45,24 @@ pub struct Accuracy {
 impl Accuracy {
     pub fn run(&self) -> anyhow::Result<()> {
         let mut settings = self.common.settings()?;
+        settings.look.view = View::Voxels;
         settings.look.accuracy = true;
         let grids = if self.grids.is_empty() { vec![settings.discretization.grid] } else { self.grids.clone() };
         self.check(&settings, &grids)?;
         if let Some(folder) = &self.output {
             std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
         }
-        settings.discretization.grid = grids[0];
-        let mut session = Session::open(&self.scene, &self.common, &settings)?;
-        let poses = self.poses(&session, &settings)?;
         let mut rows = Vec::new();
-        for grid in grids {
-            settings.discretization.grid = grid;
-            session.voxelize_again(&settings)?;
-            for (number, pose) in poses.iter().enumerate() {
-                settings.motion = pose.clone();
-                rows.extend(self.compare(&mut session, &mut settings, number)?);
-            }
+        for scene in &self.scenes {
+            rows.extend(self.compare_scene(scene, &settings, &grids)?);
         }
         if let Some(folder) = &self.output {
             write_tables(folder, &rows)?;
         }
         if self.json { output::json(&rows) } else { output::result(&table(&rows)) }
     }
-}
 
-impl Accuracy {
-    /// Every combination that will be run.
+    /// Every value that will be used.
     fn check(&self, settings: &Settings, grids: &[u32]) -> Result<(), Usage> {
         let mut trial = settings.clone();
         for &grid in grids {
@@ -83,8 +76,28 @@ impl Accuracy {
         Ok(())
     }
 
-    fn poses(&self, session: &Session, settings: &Settings) -> anyhow::Result<Vec<MotionSettings>> {
-        let motion = &settings.motion;
+    fn compare_scene(&self, scene: &Path, settings: &Settings, grids: &[u32]) -> anyhow::Result<Vec<Row>> {
+        let mut settings = settings.clone();
+        settings.discretization.grid = grids[0];
+        let mut session = Session::open(scene, &self.common, &settings)?;
+        let poses = self.poses(&session, &settings.motion)?;
+        let mut rows = Vec::new();
+        for &grid in grids {
+            settings.discretization.grid = grid;
+            session.voxelize_again(&settings)?;
+            for (number, pose) in poses.iter().enumerate() {
+                settings.motion = pose.clone();
+                let row = compare(&mut session, &settings)?;
+                if let Some(folder) = &self.output {
+                    draw_ghosts(&mut session, &settings, &folder.join(format!("{}-{grid}-{number}", row.scene)))?;
+                }
+                rows.push(row);
+            }
+        }
+        Ok(rows)
+    }
+
+    fn poses(&self, session: &Session, motion: &MotionSettings) -> anyhow::Result<Vec<MotionSettings>> {
         Ok(match (self.times.is_empty(), self.turns.is_empty()) {
             (true, true) => accuracy::default_poses(&session.prepared, motion)?,
             (true, false) => accuracy::turned(motion, &self.turns),
@@ -95,43 +108,41 @@ impl Accuracy {
                 .collect(),
         })
     }
-
-    /// A row a filter, and its ghost picture if wanted.
-    fn compare(&self, session: &mut Session, settings: &mut Settings, pose: usize) -> anyhow::Result<Vec<Row>> {
-        session.take_exact(settings)?;
-        settings.look.view = View::Voxels;
-        session.run(settings, NO_PICTURE)?;
-        let report = session.engine.accuracy().context("the scene has no voxels to compare")?;
-        let exact = report.exact_cells.context("the posed mesh was not compared")?;
-        let clip = session.prepared.clip_index(&settings.motion)?;
-        let row = |measured| Row {
-            scene: session.prepared.scene.name.clone(),
-            clip: clip.map(|clip| session.prepared.scene.clips[clip].name.clone()).unwrap_or_default(),
-            time_secs: settings.motion.time_secs,
-            turn_degrees: settings.motion.turn_degrees,
-            grid: settings.discretization.grid,
-            span: session.prepared.grid.span,
-            exact,
-            measured,
-        };
-        let rows: Vec<Row> = [report.nearest, report.split].into_iter().flatten().map(row).collect();
-        if let Some(folder) = &self.output {
-            for row in &rows {
-                let name = output::name_of(&row.measured.filter);
-                draw_ghost(session, settings, row.measured.filter, &folder.join(format!("ghost-{}-{pose}-{name}.png", row.grid)))?;
-            }
-        }
-        Ok(rows)
-    }
 }
 
-fn draw_ghost(session: &mut Session, settings: &Settings, filter: Filter, file: &Path) -> anyhow::Result<()> {
+fn compare(session: &mut Session, settings: &Settings) -> anyhow::Result<Row> {
+    session.take_exact(settings)?;
+    session.run(settings, NO_PICTURE)?;
+    let scene = &session.prepared.scene;
+    let nothing = || format!("{} has no voxels to compare", scene.name);
+    let report = session.engine.accuracy().with_context(nothing)?;
+    let clip = session.prepared.clip_index(&settings.motion)?;
+    Ok(Row {
+        scene: scene.name.clone(),
+        clip: clip.map(|clip| scene.clips[clip].name.clone()),
+        time_secs: settings.motion.time_secs,
+        turn_degrees: settings.motion.turn_degrees,
+        grid: settings.discretization.grid,
+        span: session.prepared.grid.span,
+        exact: report.exact_cells.with_context(nothing)?,
+        nearest: report.nearest.with_context(nothing)?,
+        split: report.split.with_context(nothing)?,
+    })
+}
+
+/// `STEM-nearest.png` and `STEM-split.png`.
+fn draw_ghosts(session: &mut Session, settings: &Settings, stem: &Path) -> anyhow::Result<()> {
     let mut settings = settings.clone();
     settings.look.view = View::Ghost;
     settings.look.accuracy = false;
-    settings.discretization.filter = filter;
-    session.run(&settings, SIZE_PX)?;
-    Ok(export::write_png(file, &session.engine.read_image()?, &settings)?)
+    for filter in [Filter::Nearest, Filter::Split] {
+        settings.discretization.filter = filter;
+        session.run(&settings, SIZE_PX)?;
+        let mut file = stem.as_os_str().to_owned();
+        file.push(format!("-{}.png", output::name_of(&filter)));
+        export::write_png(Path::new(&file), &session.engine.read_image()?, &settings)?;
+    }
+    Ok(())
 }
 
 fn write_tables(folder: &Path, rows: &[Row]) -> anyhow::Result<()> {
@@ -147,7 +158,18 @@ fn write_tables(folder: &Path, rows: &[Row]) -> anyhow::Result<()> {
 }
 
 const HEADS: [&str; 12] = [
-    "scene", "clip", "time s", "turn °", "grid", "filter", "kernel ms", "exact cells", "leaves", "MB", "holes %", "spill %",
+    "scene",
+    "clip",
+    "time s",
+    "turn °",
+    "grid",
+    "exact cells",
+    "nearest ms",
+    "nearest holes %",
+    "nearest spill %",
+    "split ms",
+    "split holes %",
+    "split spill %",
 ];
 
 fn table(rows: &[Row]) -> String {
@@ -156,22 +178,18 @@ fn table(rows: &[Row]) -> String {
 
 fn cells(row: &Row) -> Vec<String> {
     let [x, y, z] = row.turn_degrees;
-    vec![
+    let mut cells = vec![
         row.scene.clone(),
-        row.clip.clone(),
+        row.clip.clone().unwrap_or_default(),
         format!("{:.3}", row.time_secs),
         format!("{x} {y} {z}"),
         row.grid.to_string(),
-        output::name_of(&row.measured.filter),
-        format!("{:.2}", row.measured.kernel_ms),
         row.exact.to_string(),
-        row.measured.leaves.to_string(),
-        format!("{:.1}", row.measured.bytes as f64 / 1e6),
-        percent(row.holes_percent()),
-        percent(row.spill_percent()),
-    ]
-}
-
-fn percent(share: Option<f64>) -> String {
-    share.map(|percent| format!("{percent:.3}")).unwrap_or_default()
+    ];
+    let percent = |share: Option<f64>| share.map(|percent| format!("{percent:.3}")).unwrap_or_default();
+    let costs = |filter: &FilterReport| {
+        [format!("{:.2}", filter.kernel_ms), percent(row.holes_percent(filter)), percent(spill_percent(filter))]
+    };
+    cells.extend([&row.nearest, &row.split].into_iter().flat_map(costs));
+    cells
 }
