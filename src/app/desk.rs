@@ -32,9 +32,8 @@ impl Desk {
         if self.dialog.is_none() {
             let dialog = rfd::AsyncFileDialog::new().set_title("Open a scene").add_filter("glTF", &["gltf", "glb"]);
             let chosen = dialog.pick_file();
-            self.dialog = Some(Background::start(ctx, move |_| {
-                pollster::block_on(chosen).map(|file| file.path().to_owned())
-            }));
+            self.dialog =
+                Some(Background::start(ctx, move |_| pollster::block_on(chosen).map(|file| file.path().to_owned())));
         }
     }
 
@@ -71,7 +70,7 @@ mod tests {
     #[test]
     fn recent_scenes_are_listed_once_newest_first() {
         let mut desk = Desk::default();
-        ["a", "b", "a"].map(|name| desk.remember(PathBuf::from(name)));
+        ["a", "b", "a"].into_iter().for_each(|name| desk.remember(PathBuf::from(name)));
         assert_eq!(desk.recent, [PathBuf::from("a"), PathBuf::from("b")]);
         (0..20).for_each(|number| desk.remember(PathBuf::from(number.to_string())));
         assert_eq!(desk.recent.len(), 10);

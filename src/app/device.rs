@@ -7,7 +7,8 @@ use crate::gpu::Gpu;
 /// Whether there is a display server to ask for a window.
 pub fn has_display() -> bool {
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    !cfg!(all(unix, not(target_vendor = "apple"))) || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(is_set)
+    !cfg!(all(unix, not(target_vendor = "apple")))
+        || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(is_set)
 }
 
 /// The adapter whose name contains `name`, or else the best one, that can show pictures in a

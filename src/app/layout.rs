@@ -50,9 +50,13 @@ impl App {
         });
         self.desk.unfolded.controls = open;
         let mut open = self.desk.unfolded.measurements;
-        Panel::right("measurements").default_size(350.0).size_range(260.0..=620.0).show_collapsible(ui, &mut open, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| commands.extend(self.measurements_ui(ui)));
-        });
+        Panel::right("measurements").default_size(350.0).size_range(260.0..=620.0).show_collapsible(
+            ui,
+            &mut open,
+            |ui| {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| commands.extend(self.measurements_ui(ui)));
+            },
+        );
         self.desk.unfolded.measurements = open;
         commands
     }

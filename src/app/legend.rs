@@ -14,7 +14,10 @@ pub fn paint(painter: &Painter, view: Rect, look: &Look) {
         (View::Ghost, _) => swatches(
             painter,
             corner,
-            &[(theme::HOLE, "hole: exact cell no voxel reached"), (theme::SPILL, "spill: voxel outside the exact cells")],
+            &[
+                (theme::HOLE, "hole: exact cell no voxel reached"),
+                (theme::SPILL, "spill: voxel outside the exact cells"),
+            ],
         ),
         (_, ColorBy::Normal) => swatches(
             painter,

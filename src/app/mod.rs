@@ -207,7 +207,8 @@ impl App {
             let name = &prepared.scene.name;
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("Octolume — {name}")));
             let count = panels::grouped(prepared.voxel_count());
-            self.journal.note(Severity::Info, format!("Opened {name}: {count} voxels in {:.0} ms.", prepared.voxelize_ms));
+            self.journal
+                .note(Severity::Info, format!("Opened {name}: {count} voxels in {:.0} ms.", prepared.voxelize_ms));
             for warning in &prepared.warnings {
                 self.journal.note(Severity::Warning, warning);
             }

@@ -1,6 +1,5 @@
 //! The middle of the window: which picture is wanted now, how coarse it may be, and what lies over it.
 
-
 use egui::{Align2, FontId, Rect, Ui, vec2};
 
 use super::journal::Severity;

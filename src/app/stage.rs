@@ -30,9 +30,13 @@ pub struct Stage {
 
 enum State {
     Idle,
-    Working { fraction: f32 },
+    Working {
+        fraction: f32,
+    },
     /// The picture that was asked for cannot be made; it is not tried again.
-    Failed { error: String },
+    Failed {
+        error: String,
+    },
 }
 
 impl Stage {

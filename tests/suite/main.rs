@@ -1,5 +1,6 @@
 //! The tests of the core: one module an area, one binary so that it links once.
 
+mod builtin;
 /// Vectors and matrices, entry by entry.
 macro_rules! assert_near {
     ($value:expr, $expected:expr, $tolerance:expr $(,)?) => {
@@ -15,9 +16,14 @@ mod document;
 mod gpu;
 mod loading;
 mod motion;
+mod octree;
 mod parts;
+mod random;
 mod scenes;
 mod shaders;
+mod shaders;
 mod skinning;
+mod stage_checks;
+mod stage_rig;
 mod voxelization;
 mod voxelization_payload;

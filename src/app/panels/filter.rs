@@ -26,7 +26,9 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
         ("Nodes", "Octree nodes of all levels, dummies included.", |cost| Some(grouped(cost.nodes))),
         ("Memory", "Bytes of the octree.", |cost| Some(bytes(cost.bytes))),
         ("Holes", "Cells of the exact posed voxelization that no moved voxel reached.", |cost| cost.holes.map(grouped)),
-        ("Spill", "Cells that moved voxels reached outside the exact posed voxelization.", |cost| cost.spill.map(grouped)),
+        ("Spill", "Cells that moved voxels reached outside the exact posed voxelization.", |cost| {
+            cost.spill.map(grouped)
+        }),
     ];
     for (name, tip, value) in rows {
         let values = costs.map(|cost| cost.as_ref().and_then(value));

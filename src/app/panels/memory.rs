@@ -26,7 +26,11 @@ pub fn ui(ui: &mut Ui, buffers: &[BufferUse]) {
         Cell::new(bytes(total)).color(theme::STRONG),
     ]];
     rows.extend(uses.into_iter().map(|(label, (count, total))| {
-        vec![Cell::new(label).tip(label), grouped(count).into(), Cell::new(bytes(total)).tip(format!("{} bytes", grouped(total)))]
+        vec![
+            Cell::new(label).tip(label),
+            grouped(count).into(),
+            Cell::new(bytes(total)).tip(format!("{} bytes", grouped(total))),
+        ]
     }));
     table::show(ui, "memory", &[("buffer", 0.0), ("count", 40.0), ("size", 72.0)], rows);
 }

@@ -50,7 +50,10 @@ fn weights_ui(ui: &mut Ui, report: &OctreeReport) {
         ],
         vec![Cell::new("Kept in the grid"), voxels(report.kept_weight).into()],
         vec![Cell::new("Clipped outside"), voxels(report.clipped_weight).into()],
-        vec![Cell::new("Above full cells").tip("What clamping occupancy to 1 removed."), voxels(report.excess_weight).into()],
+        vec![
+            Cell::new("Above full cells").tip("What clamping occupancy to 1 removed."),
+            voxels(report.excess_weight).into(),
+        ],
     ];
     ui.add_space(4.0);
     table::show(ui, "weights", &[("weight", 0.0), ("voxels", 110.0)], rows);

@@ -70,7 +70,8 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
     let count = |wanted: fn(&Motion) -> bool| {
         prepared.objects.iter().filter(|object| wanted(&object.object.motion)).count() as u64
     };
-    let triangles: usize = prepared.objects.iter().map(|object| scene.meshes[object.object.mesh].triangle_count()).sum();
+    let triangles: usize =
+        prepared.objects.iter().map(|object| scene.meshes[object.object.mesh].triangle_count()).sum();
     let joints: usize = scene.skins.iter().map(|skin| skin.joints.len()).sum();
     let cached: u64 = prepared.caches.iter().map(|cache| cache.voxels.len() as u64).sum();
     let cache_bytes = cached * size_of::<CacheVoxel>() as u64;

@@ -54,7 +54,8 @@ impl<T: Into<String>> From<T> for Cell {
 
 /// Column names with the width of all but the first, then the rows.
 pub fn show(ui: &mut Ui, id: &str, columns: &[(&str, f32)], rows: Vec<Vec<Cell>>) {
-    let mut table = TableBuilder::new(ui).id_salt(id).striped(true).vscroll(false).column(Column::remainder().clip(true));
+    let mut table =
+        TableBuilder::new(ui).id_salt(id).striped(true).vscroll(false).column(Column::remainder().clip(true));
     for (_, width) in &columns[1..] {
         table = table.column(Column::exact(*width).clip(true));
     }
@@ -73,7 +74,6 @@ pub fn show(ui: &mut Ui, id: &str, columns: &[(&str, f32)], rows: Vec<Vec<Cell>>
 }
 
 fn aligned(ui: &mut Ui, column: usize, add: impl FnOnce(&mut Ui)) {
-    let layout =
-        if column == 0 { Layout::left_to_right(Align::Center) } else { Layout::right_to_left(Align::Center) };
+    let layout = if column == 0 { Layout::left_to_right(Align::Center) } else { Layout::right_to_left(Align::Center) };
     ui.with_layout(layout, add);
 }

@@ -102,7 +102,8 @@ fn turn_and_scrub_ui(
                 .fixed_decimals(3)
                 .suffix(format!(" / {duration:.2} s"))
                 .smart_aim(false);
-            let response = ui.add_enabled(playable, slider).on_hover_text("Time of the clip in seconds; drag to scrub.");
+            let response =
+                ui.add_enabled(playable, slider).on_hover_text("Time of the clip in seconds; drag to scrub.");
             response.widget_info(|| egui::WidgetInfo::slider(playable, time, "Time"));
             if response.changed() {
                 commands.push(Command::Move(MotionSettings { time_secs: time, ..motion.clone() }));
@@ -113,10 +114,15 @@ fn turn_and_scrub_ui(
 
 fn turn_ui(ui: &mut Ui, motion: &MotionSettings) -> Option<Command> {
     let mut turn = motion.turn_degrees;
-    let axes = [("Turn z", Color32::from_rgb(110, 160, 255)), ("Turn y", Color32::from_rgb(130, 210, 120)), ("Turn x", Color32::from_rgb(255, 120, 110))];
+    let axes = [
+        ("Turn z", Color32::from_rgb(110, 160, 255)),
+        ("Turn y", Color32::from_rgb(130, 210, 120)),
+        ("Turn x", Color32::from_rgb(255, 120, 110)),
+    ];
     for (degrees, (name, color)) in turn.iter_mut().rev().zip(axes) {
         let drag = DragValue::new(degrees).speed(0.5).range(-360.0..=360.0).max_decimals(2).suffix("°");
-        let response = ui.add(drag).on_hover_text("Turns the whole scene about its centre: a rigid motion of everything.");
+        let response =
+            ui.add(drag).on_hover_text("Turns the whole scene about its centre: a rigid motion of everything.");
         named_number(&response, *degrees, name);
         ui.colored_label(color, &name[5..]);
     }

@@ -37,7 +37,8 @@ fn latency_ui(ui: &mut Ui, latency: &Latency) {
         ui.label(RichText::new("Input to paint").color(theme::WEAK));
         ui.label(text);
     });
-    let tip = "From an input to the end, on the GPU, of the frame that shows it; 95 % of the last inputs stayed within p95.";
+    let tip =
+        "From an input to the end, on the GPU, of the frame that shows it; 95 % of the last inputs stayed within p95.";
     row.response.on_hover_text(tip);
 }
 
@@ -66,12 +67,8 @@ fn history_ui(ui: &mut Ui, history: &FrameHistory) {
 fn row(kernel: &KernelTiming, total_ms: f64) -> Vec<Cell> {
     let share = if total_ms > 0.0 { kernel.ms / total_ms } else { 0.0 };
     let rate = kernel.bytes_moved as f64 / (kernel.ms * 1e6);
-    let tip = format!(
-        "{}: {} threads, must move {}",
-        kernel.kernel,
-        grouped(kernel.threads),
-        bytes(kernel.bytes_moved)
-    );
+    let tip =
+        format!("{}: {} threads, must move {}", kernel.kernel, grouped(kernel.threads), bytes(kernel.bytes_moved));
     let is_copy = ["clear ", "copy "].iter().any(|kind| kernel.kernel.starts_with(kind));
     let name = Cell::new(&kernel.kernel).color(if is_copy { theme::WEAK } else { theme::STRONG });
     vec![

@@ -30,7 +30,8 @@ pub fn ui(ui: &mut Ui, current: &Look, depth: u32) -> Vec<Command> {
     });
     color_ui(ui, &mut look);
     ui.horizontal(|ui| {
-        ui.checkbox(&mut look.shaded, "Shaded").on_hover_text("A headlight from the camera; off shows the bare colour.");
+        ui.checkbox(&mut look.shaded, "Shaded")
+            .on_hover_text("A headlight from the camera; off shows the bare colour.");
         ui.add_enabled_ui(voxels, |ui| {
             ui.checkbox(&mut look.voxel_edges, "Voxel edges").on_hover_text("Draws the edges of every voxel shown.")
         });
