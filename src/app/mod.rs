@@ -122,6 +122,11 @@ impl App {
         &self.latency
     }
 
+    /// What the engine runs on.
+    pub fn gpu(&self) -> &Gpu {
+        self.stage.engine.gpu()
+    }
+
     /// What the person has set.
     pub fn settings(&self) -> &Settings {
         &self.settings

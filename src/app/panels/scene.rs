@@ -15,10 +15,7 @@ use crate::scene::{Motion, builtin};
 pub fn ui(ui: &mut Ui, scene: Option<&Prepared>, path: &mut String, recent: &[PathBuf]) -> Vec<Command> {
     let mut commands = open_ui(ui, path, recent);
     match scene {
-        Some(prepared) => {
-            facts_ui(ui, prepared);
-            warnings_ui(ui, &prepared.warnings);
-        }
+        Some(prepared) => facts_ui(ui, prepared),
         None => nothing(ui, "No scene is open. Drop a .gltf or .glb file here."),
     }
     commands.dedup();
@@ -97,24 +94,24 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
         let caches = format!("{} in {}", grouped(cached), bytes(cache_bytes));
         fact(ui, "Voxels", &caches, "Of all caches: objects of one mesh and stretch share theirs.");
         let time = format!("{:.0} ms", prepared.voxelize_ms);
+        warnings_ui(ui, &prepared.warnings);
         fact(ui, "Voxelized", &time, "Time on the CPU for the last voxelization; once per grid, span and mode.");
     });
+}
+
+fn warnings_ui(ui: &mut Ui, warnings: &[String]) {
+    ui.label(RichText::new("Warnings").color(theme::WEAK));
+    if warnings.is_empty() {
+        ui.label("none");
+    } else {
+        let count = RichText::new(format!("{}, see the log", warnings.len())).color(theme::WARNING);
+        ui.label(count).on_hover_text(warnings.join("\n"));
+    }
+    ui.end_row();
 }
 
 fn fact(ui: &mut Ui, name: &str, value: &str, tip: &str) {
     ui.label(RichText::new(name).color(theme::WEAK));
     ui.add(egui::Label::new(value).truncate()).on_hover_text(tip);
     ui.end_row();
-}
-
-fn warnings_ui(ui: &mut Ui, warnings: &[String]) {
-    if warnings.is_empty() {
-        return;
-    }
-    let title = RichText::new(format!("{} warnings", warnings.len())).color(theme::WARNING);
-    egui::CollapsingHeader::new(title).id_salt("warnings").show(ui, |ui| {
-        for warning in warnings {
-            ui.label(RichText::new(warning).color(theme::WARNING).small());
-        }
-    });
 }
