@@ -22,7 +22,6 @@ mod shaders;
 mod skinning;
 mod octree;
 mod random;
-mod shaders;
 mod stage_checks;
 mod stage_rig;
 mod voxelization;
