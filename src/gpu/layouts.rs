@@ -11,6 +11,7 @@ use crate::data::pages::WorkItem;
 use crate::stages::build::LevelParams;
 use crate::stages::build::scan::ScanParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
+use crate::stages::view::{GhostColors, Palette, ViewParams};
 
 /// Both sides of a layout, as Rust sees it.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +61,7 @@ pub const MIRRORS: &[Mirror] = &[
         pad,
         levels,
     ),
-    mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part),
+    mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part, object),
     mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
     mirror!(
         Matrix3x4,
@@ -86,4 +87,25 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(LevelParams, "average/average.wgsl", "AverageParams", level),
     mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
     mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(
+        ViewParams,
+        "shared/view.wgsl",
+        "ViewParams",
+        origin,
+        width_px,
+        origin_x,
+        height_px,
+        origin_y,
+        start_cells,
+        direction,
+        level,
+        direction_x,
+        color_by,
+        direction_y,
+        flags,
+        background,
+        pad,
+    ),
+    mirror!(Palette, "shared/view.wgsl", "Palette", colors),
+    mirror!(GhostColors, "view/ghost.wgsl", "GhostColors", both, holes, spill),
 ];
