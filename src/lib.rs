@@ -10,6 +10,7 @@
 //! drive the same engine with the same settings.
 
 pub mod data;
+pub mod engine;
 pub mod gpu;
 pub mod plan;
 pub mod prepare;
