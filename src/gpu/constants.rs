@@ -6,6 +6,8 @@ use crate::data::pages::WORK_HINT_THREADS;
 use crate::data::voxel_cache::TILE_CELLS;
 use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
+use crate::stages::fill::number_objects::OBJECT_MASK;
+use crate::stages::view;
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[

@@ -16,6 +16,8 @@ mod gpu;
 mod loading;
 mod motion;
 mod parts;
+mod plain_octree;
+mod rays;
 mod scenes;
 mod shaders;
 mod skinning;

@@ -8,7 +8,12 @@ use super::GhostColors;
 use super::march_ref::Shown;
 
 /// What the cell shows; `None` where neither set has it.
-pub fn shown(cell: IVec3, moved: &BTreeSet<[i32; 3]>, exact: &BTreeSet<[i32; 3]>, colors: &GhostColors) -> Option<Shown> {
+pub fn shown(
+    cell: IVec3,
+    moved: &BTreeSet<[i32; 3]>,
+    exact: &BTreeSet<[i32; 3]>,
+    colors: &GhostColors,
+) -> Option<Shown> {
     let cell = cell.to_array();
     let color = match (moved.contains(&cell), exact.contains(&cell)) {
         (true, true) => colors.both,

@@ -32,7 +32,10 @@ pub fn crossings(origin: DVec3, direction: DVec3, cells: u32) -> Vec<Crossing> {
     let between = planes.windows(2).filter(|pair| pair[0].0 < pair[1].0);
     let inside = between.filter_map(|pair| {
         let (from, to) = (pair[0].0, pair[1].0);
-        let cell = (origin + direction * (0.5 * (from + to))).floor().as_ivec3();
+        let middle = origin + direction * (0.5 * (from + to));
+        // A middle lies on no plane; where it seems to, rounding has swallowed a tiny step ahead.
+        let ahead = |axis: usize| if direction[axis] < 0.0 { middle[axis].ceil() - 1.0 } else { middle[axis].floor() };
+        let cell = DVec3::new(ahead(0), ahead(1), ahead(2)).as_ivec3();
         let is_inside = cell.cmpge(IVec3::ZERO).all() && cell.cmplt(IVec3::splat(cells as i32)).all();
         // All faces reached at that moment count, the start of the ray does not.
         let faces = planes.iter().filter(|(t, _)| *t == from && from > 0.0).map(|(_, against)| *against);
@@ -113,7 +116,8 @@ fn edge_shade(ray: &PixelRay, crossing: &Crossing, scale: f64) -> f64 {
     }
     let pixel = ray.width / scale + crossing.from * ray.widening;
     let inside = ray.origin / scale + ray.direction * crossing.from - crossing.cell.as_dvec3();
-    let distances = (0..3).filter(|&axis| crossing.entered[axis] == 0.0).map(|axis| inside[axis].min(1.0 - inside[axis]));
+    let distances =
+        (0..3).filter(|&axis| crossing.entered[axis] == 0.0).map(|axis| inside[axis].min(1.0 - inside[axis]));
     let distance_px = distances.fold(1.0, f64::min) / pixel;
     let fade = ((1.0 / pixel - EDGE_FROM_PX) / (EDGE_FULL_PX - EDGE_FROM_PX)).clamp(0.0, 1.0);
     1.0 - (1.0 - EDGE_SHADE) * (1.5 - distance_px).clamp(0.0, 1.0) * fade

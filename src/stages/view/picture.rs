@@ -32,14 +32,14 @@ impl Picture {
         self.size_px().into_iter().map(|side| u64::from(side.next_multiple_of(8))).product()
     }
 
-    /// RGBA bytes, rows from the top. Blocks until submitted work is done.
-    pub fn read_rgba8(&self, gpu: &Gpu) -> Result<Vec<u8>, GpuError> {
-        gpu.read_texture(&self.color)
+    /// Blocks until submitted work is done.
+    pub fn read(&self, gpu: &Gpu) -> Result<image::RgbaImage, GpuError> {
+        gpu.read_texture(self.color.raw())
     }
 
     /// Distances in cells, rows from the top. Blocks likewise.
     pub fn read_distances(&self, gpu: &Gpu) -> Result<Vec<f32>, GpuError> {
-        gpu.read_texture(&self.distance).map(|bytes| bytemuck::pod_collect_to_vec(&bytes))
+        gpu.read_texels(self.distance.raw()).map(|bytes| bytemuck::pod_collect_to_vec(&bytes))
     }
 }
 
@@ -48,10 +48,19 @@ pub fn depth_buffer(gpu: &Gpu, size_px: [u32; 2]) -> Result<GpuTexture, GpuError
     texture(gpu, "triangle depth", size_px, DEPTH_FORMAT)
 }
 
-fn texture(gpu: &Gpu, label: &str, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> Result<GpuTexture, GpuError> {
+fn texture(
+    gpu: &Gpu,
+    label: &str,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+) -> Result<GpuTexture, GpuError> {
     use wgpu::TextureUsages as Usage;
     let drawn = Usage::RENDER_ATTACHMENT;
-    let usage = if format == DEPTH_FORMAT { drawn } else { drawn | Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING | Usage::COPY_SRC };
+    let usage = if format == DEPTH_FORMAT {
+        drawn
+    } else {
+        drawn | Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING | Usage::COPY_SRC
+    };
     gpu.texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
