@@ -21,5 +21,6 @@ mod rays;
 mod scenes;
 mod shaders;
 mod skinning;
+mod view;
 mod voxelization;
 mod voxelization_payload;
