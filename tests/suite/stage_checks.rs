@@ -109,13 +109,13 @@ impl Expected {
             let starts: Vec<u64> = built.block_starts.iter().map(|starts| u64::from(starts[channel])).collect();
             same("block starts", &starts, &scan_spread_ref::prefixes(&values))?;
         }
-        let all = counts.keys().find(|block| !blocks.contains(block));
+        let known: BTreeSet<Block> = blocks.iter().copied().collect();
+        let all = counts.keys().find(|block| !known.contains(*block));
         ensure(all.is_none(), || format!("block {all:?} is not allocated, its voxels are lost"))?;
         self.check_places(built, &blocks)?;
-        let leaf_blocks = blocks.iter().copied().collect();
         let heavy: BTreeSet<Block> = built.heavy_blocks.iter().map(|&block| blocks[block as usize]).collect();
         same("heavy blocks listed once", &heavy.len(), &built.heavy_blocks.len())?;
-        same("heavy blocks", &heavy, &gather_heavy_ref::heavy(&counts, &leaf_blocks, filter))
+        same("heavy blocks", &heavy, &gather_heavy_ref::heavy(&counts, &known, filter))
     }
 
     fn check_places(&self, built: &Built, blocks: &[Block]) -> Check {
@@ -130,11 +130,7 @@ impl Expected {
             let sorted = (built.block_starts[*block as usize][0] + place) as usize;
             same("sorted voxel", &fragment(built.sorted_voxels[sorted]), &self.fragments[voxel])?;
         }
-        let expected = if blocks.len() < 4096 {
-            place_ref::place(&voxel_blocks, blocks)
-        } else {
-            placed_by_block(&voxel_blocks, blocks)
-        };
+        let expected = place_ref::place(&voxel_blocks, blocks);
         same("voxels of each block", &placed, &expected)
     }
 
@@ -147,16 +143,6 @@ impl Expected {
         }
         same("leaves", &found.len(), &expected.len())
     }
-}
-
-/// The reference is quadratic; this is the same in one pass, for large scenes.
-fn placed_by_block(voxel_blocks: &[Option<Block>], blocks: &[Block]) -> Vec<BTreeSet<usize>> {
-    let index: BTreeMap<Block, usize> = blocks.iter().copied().zip(0..).collect();
-    let mut placed = vec![BTreeSet::new(); blocks.len()];
-    for (voxel, block) in voxel_blocks.iter().enumerate().filter_map(|(voxel, block)| Some((voxel, (*block)?))) {
-        placed[index[&block]].insert(voxel);
-    }
-    placed
 }
 
 pub fn quotients(fragments: &[Option<Fragment>]) -> impl Iterator<Item = Option<[i64; 3]>> + '_ {
@@ -324,8 +310,9 @@ impl Expected {
 pub fn check_interpolation_corners(built: &Built) -> Check {
     let depth = built.params.depth;
     let index = walk(built)?;
+    let blocks: BTreeSet<Block> = leaf_blocks(built).into_iter().collect();
     let stored = |level: u32, cell: Cell| match level == depth {
-        true => leaf_blocks(built).binary_search_by_key(&morton_key(cell.map(|c| c / 2)), |b| morton_key(*b)).is_ok(),
+        true => blocks.contains(&cell.map(|c| c / 2)),
         false => index.contains_key(&(level, cell)),
     };
     for level in 1..=depth {
