@@ -8,5 +8,6 @@ mod random;
 mod shaders;
 mod stage_checks;
 mod stage_rig;
+mod transform;
 mod voxelization;
 mod voxelization_payload;
