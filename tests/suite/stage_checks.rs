@@ -13,7 +13,8 @@ use octolume::stages::build::reduce_ref::{self, Pyramids};
 use octolume::stages::build::scan_spread_ref;
 use octolume::stages::fill::count_ref::{self, Block};
 use octolume::stages::fill::gather_ref::{self, Fragment, Leaf};
-use octolume::stages::fill::{gather_heavy_ref, place_ref};
+use octolume::stages::fill::number_objects::OBJECT_MASK;
+use octolume::stages::fill::{gather_heavy_ref, number_objects_ref, place_ref};
 
 use crate::stage_rig::{Built, Shape, fragment};
 
@@ -134,6 +135,16 @@ impl Expected {
         same("voxels of each block", &placed, &expected)
     }
 
+    /// Leaves by object; `objects` is that of every voxel.
+    pub fn check_objects(&self, built: &Built, objects: &[u32]) -> Check {
+        let seen = self.fragments.iter().zip(objects).filter_map(|(f, object)| Some(((*f)?.q, *object)));
+        let expected = number_objects_ref::number(seen, self.shape.depth, self.shape.filter);
+        let found: BTreeMap<Cell, u32> = leaf_slots(built)
+            .map(|(cell, slot)| (cell, OBJECT_MASK - (built.leaf_objects[slot] & OBJECT_MASK)))
+            .collect();
+        same("leaves by object", &found, &expected)
+    }
+
     pub fn check_leaves(&self, built: &Built) -> Check {
         let sums = gather_ref::sums(self.fragments.iter().flatten().copied(), self.shape.depth, self.shape.filter);
         let expected: BTreeMap<Cell, Leaf> = sums.into_iter().map(|(cell, sum)| (cell, sum.resolve())).collect();
@@ -182,24 +193,29 @@ pub fn leaf_blocks(built: &Built) -> Vec<Block> {
     built.block_keys[first..].iter().copied().map(morton_cell).collect()
 }
 
-/// Every occupied leaf's payload: slot = the block's first leaf + rank among its occupied leaves.
-pub fn leaves(built: &Built) -> Result<BTreeMap<Cell, Leaf>, String> {
-    let mut found = BTreeMap::new();
-    for (block, [_, first]) in leaf_blocks(built).into_iter().zip(&built.block_starts) {
+/// Cell and payload slot of every occupied leaf: the block's first leaf + rank in the block.
+fn leaf_slots(built: &Built) -> impl Iterator<Item = (Cell, usize)> + '_ {
+    leaf_blocks(built).into_iter().zip(&built.block_starts).flat_map(|(block, [_, first])| {
         let first_key = 8 * morton_key(block);
         let occupied = |key: &u32| built.leaf_bits[(key / 32) as usize] >> (key % 32) & 1 == 1;
-        for (key, slot) in (first_key..first_key + 8).filter(occupied).zip(*first..) {
-            let Some([occupancy, albedo, normal]) = built.leaves.get(slot as usize).copied() else {
-                return Err(format!("leaf slot {slot} of {} slots", built.leaves.len()));
-            };
-            let leaf = Leaf {
-                occupancy,
-                albedo: [0, 8, 16].map(|shift| albedo >> shift & 0xff),
-                normal: [0, 10, 20].map(|shift| normal >> shift & 0x3ff),
-            };
-            same("unused bits of a leaf", &(albedo >> 24, normal >> 30), &(0, 0))?;
-            found.insert(morton_cell(key), leaf);
-        }
+        (first_key..first_key + 8).filter(occupied).map(morton_cell).zip(*first as usize..)
+    })
+}
+
+/// Every occupied leaf's payload.
+pub fn leaves(built: &Built) -> Result<BTreeMap<Cell, Leaf>, String> {
+    let mut found = BTreeMap::new();
+    for (cell, slot) in leaf_slots(built) {
+        let Some([occupancy, albedo, normal]) = built.leaves.get(slot).copied() else {
+            return Err(format!("leaf slot {slot} of {} slots", built.leaves.len()));
+        };
+        let leaf = Leaf {
+            occupancy,
+            albedo: [0, 8, 16].map(|shift| albedo >> shift & 0xff),
+            normal: [0, 10, 20].map(|shift| normal >> shift & 0x3ff),
+        };
+        same("unused bits of a leaf", &(albedo >> 24, normal >> 30), &(0, 0))?;
+        found.insert(cell, leaf);
     }
     Ok(found)
 }
