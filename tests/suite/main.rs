@@ -27,5 +27,6 @@ mod random;
 mod stage_checks;
 mod stage_rig;
 mod view;
+mod transform;
 mod voxelization;
 mod voxelization_payload;
