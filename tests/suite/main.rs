@@ -1,5 +1,6 @@
 //! The tests of the core: one module an area, one binary so that it links once.
 
+mod builtin;
 /// Vectors and matrices, entry by entry.
 macro_rules! assert_near {
     ($value:expr, $expected:expr, $tolerance:expr $(,)?) => {
@@ -19,5 +20,10 @@ mod parts;
 mod scenes;
 mod shaders;
 mod skinning;
+mod octree;
+mod random;
+mod shaders;
+mod stage_checks;
+mod stage_rig;
 mod voxelization;
 mod voxelization_payload;
