@@ -129,7 +129,7 @@ impl Gpu {
     }
 
     /// Blocks until everything submitted is done.
-    pub(super) fn wait(&self) -> Result<(), GpuError> {
+    pub fn wait(&self) -> Result<(), GpuError> {
         let waited = self.device.poll(wgpu::PollType::Wait { submission_index: None, timeout: None });
         waited.map_err(|error| self.refused("waiting", &error.to_string())).and_then(|_| self.check_health())
     }
