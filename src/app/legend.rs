@@ -4,6 +4,8 @@ use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2
 
 use super::theme;
 use crate::settings::{ColorBy, Look, View};
+use crate::stages::view::GHOST_COLORS;
+use crate::stages::view::palette::{gamma_from_linear, legend_value};
 
 const SIZE: egui::Vec2 = vec2(150.0, 10.0);
 
@@ -15,8 +17,9 @@ pub fn paint(painter: &Painter, view: Rect, look: &Look) {
             painter,
             corner,
             &[
-                (theme::HOLE, "hole: exact cell no voxel reached"),
-                (theme::SPILL, "spill: voxel outside the exact cells"),
+                (shown(GHOST_COLORS.holes), "hole: an exact cell that no moved voxel reached"),
+                (shown(GHOST_COLORS.spill), "spill: a moved voxel outside the exact cells"),
+                (shown(GHOST_COLORS.both), "both"),
             ],
         ),
         (_, ColorBy::Normal) => swatches(
@@ -28,8 +31,8 @@ pub fn paint(painter: &Painter, view: Rect, look: &Look) {
                 (Color32::from_rgb(128, 128, 255), "+z"),
             ],
         ),
-        (View::Voxels, ColorBy::Occupancy) => ramp(painter, corner, "occupancy", ["0", "1"]),
-        (View::Voxels, ColorBy::Level) => ramp(painter, corner, "octree level", ["root", "leaves"]),
+        (View::Voxels, ColorBy::Occupancy) => ramp(painter, corner, ColorBy::Occupancy, "occupancy", ["0", "1"]),
+        (View::Voxels, ColorBy::Level) => ramp(painter, corner, ColorBy::Level, "octree level", ["root", "leaves"]),
         _ => {}
     }
 }
@@ -43,12 +46,13 @@ fn swatches(painter: &Painter, corner: Pos2, entries: &[(Color32, &str)]) {
 }
 
 /// The colour map as the picture uses it, with its ends named.
-fn ramp(painter: &Painter, corner: Pos2, name: &str, ends: [&str; 2]) {
+fn ramp(painter: &Painter, corner: Pos2, map: ColorBy, name: &str, ends: [&str; 2]) {
     const STEPS: usize = 48;
     let mut mesh = Mesh::default();
     for step in 0..=STEPS {
         let part = step as f32 / STEPS as f32;
-        let color = map_color(f64::from(part));
+        let [r, g, b] = legend_value(map, f64::from(part));
+        let color = Color32::from_rgb(r, g, b);
         let x = corner.x + SIZE.x * part;
         mesh.colored_vertex(pos2(x, corner.y), color);
         mesh.colored_vertex(pos2(x, corner.y + SIZE.y), color);
@@ -65,9 +69,10 @@ fn ramp(painter: &Painter, corner: Pos2, name: &str, ends: [&str; 2]) {
     text(painter, below + vec2(SIZE.x, 0.0), Align2::RIGHT_TOP, ends[1]);
 }
 
-fn map_color(value: f64) -> Color32 {
-    let color = colorous::VIRIDIS.eval_continuous(value);
-    Color32::from_rgb(color.r, color.g, color.b)
+/// A linear colour of a shader as the picture shows it.
+fn shown(linear: [f32; 4]) -> Color32 {
+    let [r, g, b] = [0, 1, 2].map(|channel| (gamma_from_linear(f64::from(linear[channel])) * 255.0).round() as u8);
+    Color32::from_rgb(r, g, b)
 }
 
 /// Legible over any picture.

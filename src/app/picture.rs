@@ -21,7 +21,7 @@ impl App {
             self.screenshots.give_up();
         }
         self.save_screenshot(ui.ctx(), &settings, full_px);
-        let response = self.viewport.ui(ui, &self.render, self.stage.engine.image());
+        let response = self.viewport.ui(ui, &self.render, self.stage.picture());
         let commands = viewport::commands(ui, &response, &camera);
         let moved = !commands.is_empty();
         commands.into_iter().for_each(|command| self.apply(ui.ctx(), command, clock_secs));
@@ -75,7 +75,7 @@ impl App {
             return;
         }
         let Some(ready) = &self.scene else { return self.screenshots.give_up() };
-        let ready_px = self.stage.engine.image().map(GpuTexture::size_px);
+        let ready_px = self.stage.picture().map(GpuTexture::size_px);
         if ready_px != Some(full_px) || self.exact.fraction().is_some() {
             return;
         }

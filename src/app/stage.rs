@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::history::FrameHistory;
 use crate::engine::{Engine, EngineError, EngineState};
-use crate::gpu::{Gpu, KernelTiming};
+use crate::gpu::{Gpu, GpuTexture, KernelTiming};
 use crate::plan::FramePlan;
 use crate::prepare::{ExactVoxels, Prepared};
 use crate::settings::Settings;
@@ -26,6 +26,8 @@ pub struct Stage {
     asked: Option<(Settings, [u32; 2])>,
     /// What a pixel of the last picture cost.
     ms_per_pixel: f64,
+    /// The last picture that was finished.
+    finished: Option<GpuTexture>,
 }
 
 enum State {
@@ -49,13 +51,14 @@ impl Stage {
             state: State::Idle,
             asked: None,
             ms_per_pixel: 0.0,
+            finished: None,
         }
     }
 
     /// Another scene, or other voxels of it.
     pub fn set_prepared(&mut self, prepared: &Arc<Prepared>) {
         self.engine.set_prepared(Some(Arc::clone(prepared)));
-        (self.state, self.asked) = (State::Idle, None);
+        (self.state, self.asked, self.finished) = (State::Idle, None, None);
     }
 
     pub fn set_exact(&mut self, exact: Option<Arc<ExactVoxels>>) {
@@ -110,6 +113,11 @@ impl Stage {
         }
     }
 
+    /// The picture to show: a new one of another size only when it is finished, the first one at once.
+    pub fn picture(&self) -> Option<&GpuTexture> {
+        self.finished.as_ref().or(self.engine.image())
+    }
+
     pub fn ms_per_pixel(&self) -> f64 {
         self.ms_per_pixel
     }
@@ -120,8 +128,9 @@ impl Stage {
         self.history.push(&self.timings);
         let view = self.timings.iter().filter(|timing| timing.kernel.starts_with("view/"));
         let view_ms: f64 = view.map(|timing| timing.ms).sum();
-        if let Some(image) = self.engine.image() {
-            let [width, height] = image.size_px().map(f64::from);
+        self.finished = self.engine.image().cloned();
+        if let Some(picture) = &self.finished {
+            let [width, height] = picture.size_px().map(f64::from);
             self.ms_per_pixel = view_ms / (width * height);
         }
     }
