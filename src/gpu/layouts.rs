@@ -11,6 +11,7 @@ use crate::data::pages::WorkItem;
 use crate::stages::build::LevelParams;
 use crate::stages::build::scan::ScanParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
+use crate::stages::view::{GhostColors, Palette, ViewParams};
 
 /// Both sides of a layout, as Rust sees it.
 #[derive(Clone, Copy, Debug)]
@@ -24,16 +25,19 @@ pub struct Mirror {
     pub fields: &'static [(&'static str, usize)],
 }
 
+/// `field` has the same name in Rust; `field = offset` is an element of a Rust array.
 macro_rules! mirror {
-    ($rust:ty, $file:literal, $wgsl:literal, $($field:ident),+ $(,)?) => {
+    ($rust:ty, $file:literal, $wgsl:literal, $($field:ident $(= $offset:expr)?),+ $(,)?) => {
         Mirror {
             rust_name: stringify!($rust),
             file: $file,
             wgsl_name: $wgsl,
             bytes: size_of::<$rust>(),
-            fields: &[$((stringify!($field), offset_of!($rust, $field))),+],
+            fields: &[$((stringify!($field), mirror!(@offset $rust, $field $(, $offset)?))),+],
         }
     };
+    (@offset $rust:ty, $field:ident) => { offset_of!($rust, $field) };
+    (@offset $rust:ty, $field:ident, $offset:expr) => { $offset };
 }
 
 pub const MIRRORS: &[Mirror] = &[
@@ -62,4 +66,25 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(LevelParams, "average/average.wgsl", "AverageParams", level),
     mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
     mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(
+        ViewParams,
+        "shared/view.wgsl",
+        "ViewParams",
+        origin,
+        width_px,
+        origin_x,
+        height_px,
+        origin_y,
+        start_cells,
+        direction,
+        level,
+        direction_x,
+        color_by,
+        direction_y,
+        flags,
+        background,
+        pad,
+    ),
+    mirror!(Palette, "shared/view.wgsl", "Palette", colors),
+    mirror!(GhostColors, "view/ghost.wgsl", "GhostColors", both, holes, spill),
 ];
