@@ -21,6 +21,7 @@ mod mutations;
 mod motion;
 mod parts;
 mod plain_octree;
+mod prepared;
 mod rays;
 mod scenes;
 mod shaders;
