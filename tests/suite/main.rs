@@ -6,3 +6,4 @@ mod loading;
 mod shaders;
 mod voxelization;
 mod voxelization_payload;
+mod voxelization_surface;
