@@ -3,9 +3,9 @@
 //! In: corners in cells and a box of cells to stay in. Out: every covered cell, once.
 //! *Conservative*: the cells the triangle shares an area with. *Thin*: the cells that overlap its
 //! bounds, whose axis cross along the face's dominant axis the plane meets, and whose projected
-//! axis crosses reach inside all projected edges. Every cell whose own cross the triangle meets is
-//! among them, so no axial step from centre to centre passes a closed surface: 6-separating.
-//! A triangle that meets no cross, a sub-voxel one, may therefore have no thin cell.
+//! axis crosses reach inside all projected edges. Of two axial neighbours at least one is among
+//! them if the triangle meets the step from centre to centre, so a closed surface is 6-separating.
+//! A triangle that meets no such step, a sub-voxel one, may therefore have no thin cell.
 //! Cells are half-open only for a triangle that lies in a cell plane: it covers the layer above.
 //! All decisions are signs of exact predicates, so neither winding nor rounding changes a cell.
 
