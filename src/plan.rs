@@ -33,8 +33,14 @@ pub struct Changes {
     pub skinned_poses: bool,
     /// Filter or dense level: another octree from the same world voxels.
     pub octree: bool,
+    /// The octree of the other filter is not of these voxels.
+    pub other_octree: bool,
     /// The exact posed voxels differ from those last compared.
     pub exact: bool,
+    /// The exact posed voxels differ from those whose masks are made.
+    pub exact_masks: bool,
+    /// There are exact voxels of this pose to compare with.
+    pub exact_known: bool,
     /// Camera, picture size or anything of the look.
     pub view: bool,
     /// The octree's leaves have no object numbers yet.
@@ -58,15 +64,19 @@ pub enum Pass {
     GatherSplit,
     AverageNodes,
     NumberObjects,
-    CompareExact,
     MarchVoxels,
     DrawMesh,
+    /// The masks above the exact leaves, by which rays skip empty space.
+    ReduceExact,
     MarchGhost,
+    /// The octree of the filter that is not shown, for the accuracy panel.
+    BuildOther,
+    CompareExact,
 }
 
 impl Pass {
     /// Every pass, in frame order.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 19] = [
         Self::UploadCaches,
         Self::ObjectIo,
         Self::TransformRigid,
@@ -80,10 +90,12 @@ impl Pass {
         Self::GatherSplit,
         Self::AverageNodes,
         Self::NumberObjects,
-        Self::CompareExact,
         Self::MarchVoxels,
         Self::DrawMesh,
+        Self::ReduceExact,
         Self::MarchGhost,
+        Self::BuildOther,
+        Self::CompareExact,
     ];
 
     /// The kernels a run of it dispatches; none for work of the CPU.
@@ -93,13 +105,25 @@ impl Pass {
             Self::TransformRigid => &["transform/rigid"],
             Self::TransformSkinned => &["transform/skinned"],
             Self::MarkLeaves => &["build/mark"],
-            Self::ReduceMasks => &["build/reduce"],
+            Self::ReduceMasks | Self::ReduceExact => &["build/reduce"],
             Self::ScanBlocks => &["build/scan_sum", "build/scan_spread"],
             Self::EmitNodes => &["build/emit"],
             Self::SortVoxels => &["fill/count", "build/scan_sum", "build/scan_spread", "fill/place"],
             Self::GatherNearest | Self::GatherSplit => &["fill/gather", "fill/gather_heavy"],
             Self::AverageNodes => &["average/average"],
             Self::NumberObjects => &["fill/number_objects"],
+            Self::BuildOther => &[
+                "build/mark",
+                "build/reduce",
+                "build/scan_sum",
+                "build/scan_spread",
+                "build/emit",
+                "fill/count",
+                "fill/place",
+                "fill/gather",
+                "fill/gather_heavy",
+                "average/average",
+            ],
             Self::CompareExact => &["compare/compare_sets"],
             Self::MarchVoxels => &["view/march"],
             Self::DrawMesh => &["view/mesh"],
@@ -166,11 +190,13 @@ pub fn plan(scene: &SceneFacts, changed: &Changes, settings: &Settings) -> Frame
     plan.push(Pass::GatherSplit, gather(Filter::Split, settings, wanted, moved, rebuilt));
     plan.push(Pass::AverageNodes, build(wanted, moved, rebuilt));
     plan.push(Pass::NumberObjects, number_objects(changed, settings, wanted, rebuilt));
-    plan.push(Pass::CompareExact, compare_exact(changed, settings, wanted, rebuilt));
     let redraw = changed.view || rebuilt;
     plan.push(Pass::MarchVoxels, view(View::Voxels, settings, wanted, redraw));
     plan.push(Pass::DrawMesh, draw_mesh(scene, changed, settings));
-    plan.push(Pass::MarchGhost, view(View::Ghost, settings, wanted, redraw || changed.exact));
+    plan.push(Pass::ReduceExact, reduce_exact(changed, settings, wanted));
+    plan.push(Pass::MarchGhost, ghost(changed, settings, wanted, redraw));
+    plan.push(Pass::BuildOther, build_other(changed, settings, wanted, rebuilt));
+    plan.push(Pass::CompareExact, compare_exact(changed, settings, wanted, rebuilt));
     plan
 }
 
@@ -227,10 +253,33 @@ fn number_objects(changed: &Changes, settings: &Settings, wanted: Option<&'stati
     unless(skip, rebuilt || changed.object_numbers, "colour by object", "voxels unchanged")
 }
 
+fn build_other(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, rebuilt: bool) -> Verdict {
+    let skip = wanted.or((!settings.look.accuracy).then_some("accuracy is not looked at"));
+    unless(skip, rebuilt || changed.other_octree, "the other filter, same pose", "voxels unchanged")
+}
+
 fn compare_exact(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, rebuilt: bool) -> Verdict {
-    let looked_at = settings.look.view == View::Ghost || settings.look.accuracy;
-    let skip = wanted.or((!looked_at).then_some("neither ghost nor accuracy is looked at"));
+    let skip = wanted
+        .or((!settings.look.accuracy).then_some("accuracy is not looked at"))
+        .or((!changed.exact_known).then_some("the exact voxels of this pose are not made yet"));
     unless(skip, rebuilt || changed.exact, "voxels or exact set changed", "both sets unchanged")
+}
+
+/// Why no ghost is drawn, if so.
+fn ghost_skipped(changed: &Changes, settings: &Settings, wanted: Option<&'static str>) -> Option<&'static str> {
+    wanted
+        .or((settings.look.view != View::Ghost).then_some("another view is shown"))
+        .or((!changed.exact_known).then_some("the exact voxels of this pose are not made yet"))
+}
+
+fn reduce_exact(changed: &Changes, settings: &Settings, wanted: Option<&'static str>) -> Verdict {
+    let skip = ghost_skipped(changed, settings, wanted);
+    unless(skip, changed.exact_masks, "new exact voxels", "exact voxels unchanged")
+}
+
+fn ghost(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, redraw: bool) -> Verdict {
+    let skip = ghost_skipped(changed, settings, wanted);
+    unless(skip, redraw || changed.exact_masks, "voxels, exact set or camera changed", "nothing changed")
 }
 
 fn view(which: View, settings: &Settings, wanted: Option<&'static str>, redraw: bool) -> Verdict {

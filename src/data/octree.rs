@@ -167,14 +167,23 @@ impl Slot {
         {
             return Ok(buffer.clone());
         }
+        let limit = gpu.limits.max_storage_buffer_binding_size;
+        if bytes > limit {
+            let (label, adapter) = (label.to_owned(), gpu.info.name.clone());
+            return Err(GpuError::BufferTooLarge { label, bytes, limit, adapter });
+        }
         // The old one goes first: both at once might not fit.
         let grown = self.0.take().is_some();
         let bytes = bytes.max(4).next_multiple_of(4);
         // Growing by an eighth more than asked keeps a slowly growing scene from reallocating every frame.
         let roomy = if grown { bytes + (bytes / 8).next_multiple_of(4) } else { bytes };
-        let limit = u64::from(gpu.limits.max_storage_buffer_binding_size);
         let buffer = gpu.buffer(label, if roomy <= limit { roomy } else { bytes }, wgpu::BufferUsages::empty())?;
         Ok(self.0.insert(buffer).clone())
+    }
+
+    /// The buffer, where an earlier stage must have made it.
+    pub fn made(&self, label: &str) -> Result<GpuBuffer, GpuError> {
+        self.0.clone().ok_or_else(|| GpuError::Missing { label: label.to_owned() })
     }
 
     pub fn get(&self) -> Option<&GpuBuffer> {

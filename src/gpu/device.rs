@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
-use super::kernel::causes;
+use super::reflect::causes;
 use super::{Counters, Gpu, GpuError, lock};
 
 /// Older ones end a shader's loops after 65 535 iterations without a word.
@@ -54,6 +54,7 @@ impl Gpu {
             queue,
             default_workgroup_size: None,
             kernels: Mutex::default(),
+            raster_kernels: Mutex::default(),
             registry: Arc::default(),
             serial: AtomicU64::default(),
             counters: Mutex::new(Counters::default()),
@@ -128,7 +129,7 @@ impl Gpu {
     }
 
     /// Blocks until everything submitted is done.
-    pub(super) fn wait(&self) -> Result<(), GpuError> {
+    pub fn wait(&self) -> Result<(), GpuError> {
         let waited = self.device.poll(wgpu::PollType::Wait { submission_index: None, timeout: None });
         waited.map_err(|error| self.refused("waiting", &error.to_string())).and_then(|_| self.check_health())
     }

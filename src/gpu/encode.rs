@@ -1,6 +1,5 @@
 //! Turns the pieces of a slice into one command buffer and submits it.
 
-use std::num::NonZeroU64;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -8,9 +7,9 @@ use std::time::Instant;
 use bytemuck::{Pod, Zeroable};
 use wgpu_profiler::{GpuProfiler, GpuProfilerQuery, GpuProfilerSettings};
 
-use super::kernel::BindingKind;
-use super::recorder::{Command, Pass, Resource, UNIFORM_ALIGNMENT};
-use super::{Gpu, GpuBuffer, GpuError, lock};
+use super::bindings::buffer_binding;
+use super::recorder::{Command, Pass, UNIFORM_ALIGNMENT};
+use super::{Gpu, GpuBuffer, GpuError, lock, raster};
 
 /// Thread ranges of a slice have this many places.
 pub(super) const MAX_PIECES: usize = 256;
@@ -35,7 +34,7 @@ pub struct Threads {
 
 /// Buffers and queries that one job at a time needs; kept for the next.
 pub(super) struct Scratch {
-    uniforms: GpuBuffer,
+    pub uniforms: GpuBuffer,
     ranges: GpuBuffer,
     /// `None` where the device has no timestamps.
     pub profiler: Option<GpuProfiler>,
@@ -88,6 +87,9 @@ pub(super) fn submit(
                     encode_pass(gpu, &mut encoder, pass, piece, index, scratch)
                 })??;
             }
+            Command::Raster { target, draws } => {
+                gpu.checked(raster::LABEL, || raster::encode(gpu, &mut encoder, (target, draws), piece, scratch))??;
+            }
             command => encode_transfer(&mut encoder, command, piece, scratch),
         }
     }
@@ -126,19 +128,8 @@ fn encode_pass(
 ) -> Result<(), GpuError> {
     let pipeline = pass.kernel.pipeline.as_ref().map_err(Clone::clone)?;
     let groups = folded_groups(gpu, pass, piece)?;
-    let group = |number, entries: &[wgpu::BindGroupEntry<'_>]| {
-        let layout = &pipeline.get_bind_group_layout(number);
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(&pass.kernel.name), layout, entries })
-    };
-    let entries = pass.bound.iter().map(|(binding, resource)| {
-        check_binding_size(gpu, pass, *binding, resource)?;
-        Ok(wgpu::BindGroupEntry { binding: *binding, resource: binding_resource(resource, scratch) })
-    });
-    let own = group(0, &entries.collect::<Result<Vec<_>, GpuError>>()?);
-    let range = (index * UNIFORM_ALIGNMENT) as u64..(index * UNIFORM_ALIGNMENT + size_of::<Threads>()) as u64;
-    let range = wgpu::BindGroupEntry { binding: 0, resource: buffer_binding(&scratch.ranges, &range) };
-    let ranged = pass.kernel.ranged.then(|| group(1, &[range]));
-
+    let own = pass.bound.group(gpu, &pipeline.get_bind_group_layout(0), &scratch.uniforms)?;
+    let ranged = pass.kernel.ranged.then(|| range_group(gpu, &pipeline.get_bind_group_layout(1), index, scratch));
     let query = scratch.profiler.as_ref().map(|profiler| profiler.begin_pass_query(&*pass.kernel.name, encoder));
     let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
         label: Some(&pass.kernel.name),
@@ -155,6 +146,13 @@ fn encode_pass(
     Ok(())
 }
 
+fn range_group(gpu: &Gpu, layout: &wgpu::BindGroupLayout, index: usize, scratch: &Scratch) -> wgpu::BindGroup {
+    let start = (index * UNIFORM_ALIGNMENT) as u64;
+    let resource = buffer_binding(&scratch.ranges, &(start..start + size_of::<Threads>() as u64));
+    let entries = &[wgpu::BindGroupEntry { binding: 0, resource }];
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("threads"), layout, entries })
+}
+
 fn encode_transfer(encoder: &mut wgpu::CommandEncoder, command: &Command, piece: &Piece, scratch: &Scratch) {
     let query = scratch.profiler.as_ref().map(|profiler| profiler.begin_query("transfer", encoder));
     let bytes = piece.end - piece.first;
@@ -164,12 +162,12 @@ fn encode_transfer(encoder: &mut wgpu::CommandEncoder, command: &Command, piece:
             let (from_offset, to_offset) = (from_offset + piece.first, to_offset + piece.first);
             encoder.copy_buffer_to_buffer(from.raw(), from_offset, to.raw(), to_offset, bytes);
         }
-        Command::Pass(_) => {}
+        Command::Pass(_) | Command::Raster { .. } => {}
     }
     end_query(encoder, query, scratch);
 }
 
-fn end_query(encoder: &mut wgpu::CommandEncoder, query: Option<GpuProfilerQuery>, scratch: &Scratch) {
+pub(super) fn end_query(encoder: &mut wgpu::CommandEncoder, query: Option<GpuProfilerQuery>, scratch: &Scratch) {
     if let (Some(query), Some(profiler)) = (query, &scratch.profiler) {
         profiler.end_query(encoder, query);
     }
@@ -195,38 +193,4 @@ fn folded_groups(gpu: &Gpu, pass: &Pass, piece: &Piece) -> Result<[u32; 2], GpuE
         return Err(refused("thread numbers have 32 bits"));
     }
     Ok([row as u32, rows as u32])
-}
-
-fn binding_resource<'a>(resource: &'a Resource, scratch: &'a Scratch) -> wgpu::BindingResource<'a> {
-    match resource {
-        Resource::Buffer(buffer, range) => buffer_binding(buffer, range),
-        Resource::Uniform(range) => buffer_binding(&scratch.uniforms, range),
-        Resource::Texture(view) => wgpu::BindingResource::TextureView(view),
-        Resource::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
-    }
-}
-
-fn buffer_binding<'a>(buffer: &'a GpuBuffer, range: &std::ops::Range<u64>) -> wgpu::BindingResource<'a> {
-    let size = NonZeroU64::new(range.end.saturating_sub(range.start));
-    wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: buffer.raw(), offset: range.start, size })
-}
-
-fn check_binding_size(gpu: &Gpu, pass: &Pass, number: u32, resource: &Resource) -> Result<(), GpuError> {
-    let Resource::Buffer(buffer, range) = resource else { return Ok(()) };
-    let Some(binding) = pass.kernel.bindings.iter().find(|binding| binding.binding == number) else { return Ok(()) };
-    let limit = match binding.kind {
-        BindingKind::Uniform => gpu.limits.max_uniform_buffer_binding_size,
-        _ => gpu.limits.max_storage_buffer_binding_size,
-    };
-    let bytes = range.end.saturating_sub(range.start);
-    if range.end <= buffer.bytes() && bytes > 0 && bytes <= limit {
-        return Ok(());
-    }
-    let cause = format!(
-        "{bytes} bytes of buffer \"{}\" ({} bytes) from {} on; a binding holds 1 to {limit}",
-        buffer.label(),
-        buffer.bytes(),
-        range.start
-    );
-    Err(GpuError::Binding { kernel: pass.kernel.name.clone(), binding: binding.name.clone(), cause })
 }

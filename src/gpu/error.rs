@@ -23,6 +23,8 @@ pub enum GpuError {
     Range { what: &'static str, label: String, bytes: u64, alignment: u64, start: u64, end: u64 },
     #[error("the GPU refused {what}: {cause}")]
     Refused { what: String, cause: String },
+    #[error("buffer \"{label}\" is read before any stage has made it")]
+    Missing { label: String },
     #[error("the GPU was lost: {0}")]
     Lost(String),
 }

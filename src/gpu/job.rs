@@ -5,11 +5,11 @@
 //! slice is on the queue at a time. Times come from timestamps where the device has them (one
 //! profiler frame a slice), else from the clock, shared out by the estimate.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use super::cost::{KernelTiming, PASS_NS};
+use super::cost::{Cost, KernelTiming, PASS_NS};
 use super::encode::{self, MAX_PIECES, Piece, Scratch};
 use super::recorder::{Command, Recorder};
 use super::{Gpu, GpuError, lock};
@@ -126,8 +126,9 @@ impl Job {
         };
         let took_ns = encode::submit(gpu, &self.recorder.commands, &pieces, &mut scratch)?;
         for piece in pieces.iter().filter(|piece| piece.first == 0) {
-            if let Command::Pass(pass) = &self.recorder.commands[piece.command] {
-                gpu.counted(|counters| *counters.dispatches.entry(pass.kernel.name.clone()).or_default() += 1);
+            let command = &self.recorder.commands[piece.command];
+            if matches!(command, Command::Pass(_) | Command::Raster { .. }) {
+                gpu.counted(|counters| *counters.dispatches.entry(command.name()).or_default() += 1);
             }
         }
         self.scratch = Some(scratch);
@@ -155,8 +156,8 @@ impl Job {
             let shared = took_ns as f64 * 1e-9 * piece.estimated_ns / estimated_ns;
             let seconds = stamped.map_or(shared, |time| (time.end - time.start).max(0.0));
             self.timings[piece.command].ms += seconds * 1e3;
-            if let Command::Pass(pass) = &self.recorder.commands[piece.command] {
-                lock(&pass.kernel.cost).learn(Duration::from_secs_f64(seconds), piece.end - piece.first);
+            if let Some(cost) = self.recorder.commands[piece.command].cost() {
+                lock(cost).learn(Duration::from_secs_f64(seconds), piece.end - piece.first);
             }
         }
         self.slice = None;
@@ -180,21 +181,49 @@ impl Command {
                 let step = if pass.kernel.ranged { u64::from(pass.kernel.workgroup_size[0]) } else { u64::MAX };
                 (u64::from(pass.threads), ns_per_thread, step)
             }
+            Self::Raster { draws, .. } => {
+                let vertices: u64 = draws.iter().map(|draw| u64::from(draw.vertices)).sum();
+                let ns_per_vertex = draws.first().map_or(0.0, |draw| lock(&draw.kernel.cost).ns_per_thread());
+                // Without draws there is still the clearing.
+                (vertices.max(1), ns_per_vertex, 3)
+            }
             Self::Clear { buffer } => (buffer.bytes(), NS_PER_BYTE, 4),
             Self::Copy { bytes, .. } => (*bytes, NS_PER_BYTE, 4),
         }
     }
 
     fn max_units(&self) -> u64 {
-        if let Self::Pass(pass) = self { lock(&pass.kernel.cost).max_threads() } else { u64::MAX }
+        self.cost().map_or(u64::MAX, |cost| lock(cost).max_threads())
+    }
+
+    /// Where its measured times go.
+    fn cost(&self) -> Option<&Mutex<Cost>> {
+        match self {
+            Self::Pass(pass) => Some(&pass.kernel.cost),
+            Self::Raster { draws, .. } => draws.first().map(|draw| &draw.kernel.cost),
+            Self::Clear { .. } | Self::Copy { .. } => None,
+        }
+    }
+
+    /// What counters and timings call it.
+    fn name(&self) -> String {
+        match self {
+            Self::Pass(pass) => pass.kernel.name.clone(),
+            Self::Raster { draws, .. } => {
+                draws.first().map_or("clear picture".to_owned(), |draw| draw.kernel.name.clone())
+            }
+            Self::Clear { buffer } => format!("clear {}", buffer.label()),
+            Self::Copy { from, .. } => format!("copy {}", from.label()),
+        }
     }
 
     fn timing(&self) -> KernelTiming {
-        let (kernel, bytes_moved, threads) = match self {
-            Self::Pass(pass) => (pass.kernel.name.clone(), pass.bytes_moved, u64::from(pass.threads)),
-            Self::Clear { buffer } => (format!("clear {}", buffer.label()), buffer.bytes(), 0),
-            Self::Copy { from, bytes, .. } => (format!("copy {}", from.label()), 2 * bytes, 0),
+        let (bytes_moved, threads) = match self {
+            Self::Pass(pass) => (pass.bytes_moved, u64::from(pass.threads)),
+            Self::Raster { draws, .. } => (0, draws.iter().map(|draw| u64::from(draw.vertices)).sum()),
+            Self::Clear { buffer } => (buffer.bytes(), 0),
+            Self::Copy { bytes, .. } => (2 * bytes, 0),
         };
-        KernelTiming { kernel, ms: 0.0, bytes_moved, threads }
+        KernelTiming { kernel: self.name(), ms: 0.0, bytes_moved, threads }
     }
 }

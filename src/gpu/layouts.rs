@@ -6,6 +6,12 @@
 use std::mem::offset_of;
 
 use super::Threads;
+use crate::data::octree::{OctreeLevel, OctreeParams};
+use crate::data::pages::WorkItem;
+use crate::stages::build::LevelParams;
+use crate::stages::build::scan::ScanParams;
+use crate::stages::transform::{Matrix3x4, Part, TransformParams};
+use crate::stages::view::{GhostColors, Palette, ViewParams};
 
 /// Both sides of a layout, as Rust sees it.
 #[derive(Clone, Copy, Debug)]
@@ -19,16 +25,66 @@ pub struct Mirror {
     pub fields: &'static [(&'static str, usize)],
 }
 
+/// `field` has the same name in Rust; `field = offset` is an element of a Rust array.
 macro_rules! mirror {
-    ($rust:ty, $file:literal, $wgsl:literal, $($field:ident),+ $(,)?) => {
+    ($rust:ty, $file:literal, $wgsl:literal, $($field:ident $(= $offset:expr)?),+ $(,)?) => {
         Mirror {
             rust_name: stringify!($rust),
             file: $file,
             wgsl_name: $wgsl,
             bytes: size_of::<$rust>(),
-            fields: &[$((stringify!($field), offset_of!($rust, $field))),+],
+            fields: &[$((stringify!($field), mirror!(@offset $rust, $field $(, $offset)?))),+],
         }
     };
+    (@offset $rust:ty, $field:ident) => { offset_of!($rust, $field) };
+    (@offset $rust:ty, $field:ident, $offset:expr) => { $offset };
 }
 
-pub const MIRRORS: &[Mirror] = &[mirror!(Threads, "shared/threads.wgsl", "Threads", first, end)];
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(Threads, "shared/threads.wgsl", "Threads", first, end),
+    mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part, object),
+    mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
+    mirror!(Matrix3x4, "shared/move_voxel.wgsl", "Matrix3x4", rows),
+    mirror!(Part, "shared/move_voxel.wgsl", "Part", origin, first_matrix, joints_skew, object, pad),
+    mirror!(OctreeLevel, "shared/octree.wgsl", "OctreeLevel", occupied_word, blocks_word, first_block, first_node),
+    mirror!(
+        OctreeParams,
+        "shared/octree.wgsl",
+        "OctreeParams",
+        depth,
+        dense_level,
+        block_count,
+        leaf_block_count,
+        inner_node_count,
+        leaf_count,
+        dense_node_count,
+        pad,
+        levels,
+    ),
+    mirror!(LevelParams, "build/reduce.wgsl", "ReduceParams", level),
+    mirror!(LevelParams, "build/emit.wgsl", "EmitParams", level),
+    mirror!(LevelParams, "average/average.wgsl", "AverageParams", level),
+    mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
+    mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(
+        ViewParams,
+        "shared/view.wgsl",
+        "ViewParams",
+        origin,
+        width_px,
+        origin_x,
+        height_px,
+        origin_y,
+        start_cells,
+        direction,
+        level,
+        direction_x,
+        color_by,
+        direction_y,
+        flags,
+        background,
+        pad,
+    ),
+    mirror!(Palette, "shared/view.wgsl", "Palette", colors),
+    mirror!(GhostColors, "view/ghost.wgsl", "GhostColors", both, holes, spill),
+];

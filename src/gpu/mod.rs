@@ -8,6 +8,7 @@
 //! A stage *records* what it wants done; nothing runs until a [`Job`] runs it, in pieces short
 //! enough that a window on the same queue stays fluid. Nothing here knows the paper.
 
+mod bindings;
 mod buffer;
 pub mod constants;
 mod cost;
@@ -17,20 +18,27 @@ mod error;
 mod job;
 mod kernel;
 pub mod layouts;
+mod raster;
 mod recorder;
+mod reflect;
 pub mod shaders;
+mod texture;
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+pub use bindings::{BindingKind, KernelBinding};
 pub use buffer::{BufferUse, GpuBuffer, PendingRead};
 pub use cost::KernelTiming;
 pub use encode::Threads;
 pub use error::GpuError;
 pub use job::{Job, JobState};
-pub use kernel::{BindingKind, Kernel, KernelBinding, parse};
+pub use kernel::Kernel;
+pub use raster::{DEPTH_FORMAT, RasterKernel, RasterTarget};
 pub use recorder::{PassBuilder, Recorder};
+pub use reflect::parse;
+pub use texture::GpuTexture;
 
 use device::Health;
 use shaders::Source;
@@ -43,6 +51,7 @@ pub struct Gpu {
     pub limits: wgpu::Limits,
     default_workgroup_size: Option<u32>,
     kernels: Mutex<HashMap<KernelKey, Arc<Kernel>>>,
+    raster_kernels: Mutex<HashMap<(&'static str, &'static str), Arc<RasterKernel>>>,
     registry: buffer::Registry,
     serial: AtomicU64,
     counters: Mutex<Counters>,

@@ -1,11 +1,13 @@
-//! Recording: a list of passes, clears and copies, as data.
+//! Recording: a list of passes, clears, copies and draws, as data.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use bytemuck::Pod;
 
-use super::kernel::{BindingKind, Kernel};
+use super::bindings::{Bound, Resource};
+use super::kernel::Kernel;
+use super::raster::{RasterKernel, RasterTarget};
 use super::{GpuBuffer, GpuError};
 
 /// wgpu's coarsest alignment of a uniform's offset.
@@ -24,6 +26,7 @@ pub struct Recorder {
 #[derive(Debug)]
 pub(super) enum Command {
     Pass(Pass),
+    Raster { target: RasterTarget, draws: Vec<Draw> },
     Clear { buffer: GpuBuffer },
     Copy { from: GpuBuffer, from_offset: u64, to: GpuBuffer, to_offset: u64, bytes: u64 },
 }
@@ -31,24 +34,32 @@ pub(super) enum Command {
 #[derive(Debug)]
 pub(super) struct Pass {
     pub kernel: Arc<Kernel>,
-    /// Binding number in group 0 and what is bound.
-    pub bound: Vec<(u32, Resource)>,
+    pub bound: Bound,
     pub threads: u32,
     pub bytes_moved: u64,
 }
 
 #[derive(Debug)]
-pub(super) enum Resource {
-    Buffer(GpuBuffer, Range<u64>),
-    Uniform(Range<u64>),
-    Texture(wgpu::TextureView),
-    Sampler(wgpu::Sampler),
+pub(super) struct Draw {
+    pub kernel: Arc<RasterKernel>,
+    pub bound: Bound,
+    pub vertices: u32,
 }
 
 impl Recorder {
     /// Starts a pass; [`PassBuilder::dispatch`] ends it.
-    pub fn pass(&mut self, kernel: &Arc<Kernel>) -> PassBuilder<'_> {
-        PassBuilder { recorder: self, kernel: Arc::clone(kernel), bound: Vec::new(), bytes_moved: 0 }
+    pub fn pass(&mut self, kernel: &Arc<Kernel>) -> PassBuilder<'_, Kernel> {
+        PassBuilder { recorder: self, kernel: Arc::clone(kernel), named: Vec::new(), bytes_moved: 0 }
+    }
+
+    /// Clears attachments; the draws that follow go into them.
+    pub fn raster(&mut self, target: RasterTarget) {
+        self.commands.push(Command::Raster { target, draws: Vec::new() });
+    }
+
+    /// Starts a draw into the attachments recorded last; [`PassBuilder::draw`] ends it.
+    pub fn triangles(&mut self, kernel: &Arc<RasterKernel>) -> PassBuilder<'_, RasterKernel> {
+        PassBuilder { recorder: self, kernel: Arc::clone(kernel), named: Vec::new(), bytes_moved: 0 }
     }
 
     /// Sets all bytes to zero.
@@ -61,23 +72,18 @@ impl Recorder {
         let checks = from
             .checked("copy", from_offset..from_offset.saturating_add(bytes), 4)
             .and_then(|()| to.checked("copy", to_offset..to_offset.saturating_add(bytes), 4));
-        if let Err(error) = checks {
-            self.error.get_or_insert(error);
-            return;
-        }
         let (from, to) = (from.clone(), to.clone());
-        self.commands.push(Command::Copy { from, from_offset, to, to_offset, bytes });
+        self.push(checks.map(|()| Command::Copy { from, from_offset, to, to_offset, bytes }));
     }
 
     /// Puts another recording's commands behind these.
     pub fn append(&mut self, mut other: Self) {
         let shift = self.uniforms.len() as u64;
         for command in &mut other.commands {
-            let Command::Pass(pass) = command else { continue };
-            for (_, resource) in &mut pass.bound {
-                if let Resource::Uniform(range) = resource {
-                    *range = range.start + shift..range.end + shift;
-                }
+            match command {
+                Command::Pass(pass) => pass.bound.shift_uniforms(shift),
+                Command::Raster { draws, .. } => draws.iter_mut().for_each(|draw| draw.bound.shift_uniforms(shift)),
+                Command::Clear { .. } | Command::Copy { .. } => {}
             }
         }
         self.commands.append(&mut other.commands);
@@ -88,19 +94,26 @@ impl Recorder {
     pub fn is_empty(&self) -> bool {
         self.commands.is_empty()
     }
+
+    fn push(&mut self, command: Result<Command, GpuError>) {
+        match command {
+            Ok(command) => self.commands.push(command),
+            Err(error) => drop(self.error.get_or_insert(error)),
+        }
+    }
 }
 
 /// Names what a kernel reads and writes.
-#[must_use = "a pass is recorded by dispatch()"]
+#[must_use = "dispatch() or draw() records it"]
 #[derive(Debug)]
-pub struct PassBuilder<'a> {
+pub struct PassBuilder<'a, K> {
     recorder: &'a mut Recorder,
-    kernel: Arc<Kernel>,
-    bound: Vec<(String, Resource)>,
+    kernel: Arc<K>,
+    named: Vec<(String, Resource)>,
     bytes_moved: u64,
 }
 
-impl PassBuilder<'_> {
+impl<K> PassBuilder<'_, K> {
     pub fn bind(self, name: &str, buffer: &GpuBuffer) -> Self {
         self.bind_range(name, buffer, 0..buffer.bytes())
     }
@@ -133,84 +146,45 @@ impl PassBuilder<'_> {
         self
     }
 
-    /// Ends the pass: `threads` threads, which may be none.
-    pub fn dispatch(self, threads: u64) {
-        let pass = resolve(&self.kernel, self.bound).and_then(|bound| {
-            let threads = u32::try_from(threads).map_err(|_| GpuError::Threads {
-                kernel: self.kernel.name.clone(),
-                threads,
-                cause: "thread numbers have 32 bits".to_owned(),
-            })?;
-            Ok(Pass { kernel: self.kernel, bound, threads, bytes_moved: self.bytes_moved })
-        });
-        match pass {
-            Ok(pass) => self.recorder.commands.push(Command::Pass(pass)),
-            Err(error) => drop(self.recorder.error.get_or_insert(error)),
-        }
-    }
-
     fn with(mut self, name: &str, resource: Resource) -> Self {
-        self.bound.push((name.to_owned(), resource));
+        self.named.push((name.to_owned(), resource));
         self
     }
 }
 
-/// Names to numbers: every binding that the kernel uses exactly once, and no other.
-fn resolve(kernel: &Kernel, bound: Vec<(String, Resource)>) -> Result<Vec<(u32, Resource)>, GpuError> {
-    let refused = |binding: &str, cause: &str| GpuError::Binding {
-        kernel: kernel.name.clone(),
-        binding: binding.to_owned(),
-        cause: cause.to_owned(),
-    };
-    if let Err(error) = &kernel.pipeline {
-        return Err(error.clone());
-    }
-    let mut resolved: Vec<(u32, Resource)> = Vec::with_capacity(bound.len());
-    for (name, resource) in bound {
-        let binding = kernel.binding(&name).ok_or_else(|| refused(&name, "the kernel does not use it"))?;
-        if resolved.iter().any(|(number, _)| *number == binding.binding) {
-            return Err(refused(&name, "bound twice"));
-        }
-        check_kind(binding.kind, &resource).map_err(|cause| refused(&name, &cause))?;
-        resolved.push((binding.binding, resource));
-    }
-    match kernel.bindings.iter().find(|binding| resolved.iter().all(|(number, _)| *number != binding.binding)) {
-        Some(missing) => Err(refused(&missing.name, "not bound")),
-        None => match aliased(kernel, &resolved) {
-            Some(aliased) => Err(refused(aliased, "the pass also writes this buffer through another binding")),
-            None => Ok(resolved),
-        },
+impl PassBuilder<'_, Kernel> {
+    /// Ends the pass: `threads` threads, which may be none.
+    pub fn dispatch(self, threads: u64) {
+        let Self { recorder, kernel, named, bytes_moved } = self;
+        let ready = kernel.pipeline.as_ref().map_err(Clone::clone);
+        let bound = ready.and_then(|_| Bound::new(&kernel.name, &kernel.bindings, named));
+        let pass = bound.and_then(|bound| {
+            let refused = |_| GpuError::Threads {
+                kernel: kernel.name.clone(),
+                threads,
+                cause: "thread numbers have 32 bits".to_owned(),
+            };
+            let threads = u32::try_from(threads).map_err(refused)?;
+            Ok(Command::Pass(Pass { kernel, bound, threads, bytes_moved }))
+        });
+        recorder.push(pass);
     }
 }
 
-/// A binding that reads a buffer which the same pass writes: undefined, and refused by wgpu.
-fn aliased<'a>(kernel: &'a Kernel, resolved: &[(u32, Resource)]) -> Option<&'a str> {
-    let buffers = |writes: bool| {
-        resolved.iter().filter_map(move |(number, resource)| {
-            let binding = kernel.bindings.iter().find(|binding| binding.binding == *number)?;
-            let writing = binding.kind == BindingKind::Storage { read_only: false };
-            match resource {
-                Resource::Buffer(buffer, _) if writing == writes => Some((binding, buffer)),
-                _ => None,
+impl PassBuilder<'_, RasterKernel> {
+    /// Ends the draw: three vertices a triangle.
+    pub fn draw(self, vertices: u32) {
+        let Self { recorder, kernel, named, .. } = self;
+        let ready = kernel.pipeline.as_ref().map_err(Clone::clone);
+        let bound = ready.and_then(|_| Bound::new(&kernel.name, &kernel.bindings, named));
+        match (bound, recorder.commands.last_mut()) {
+            (Ok(bound), Some(Command::Raster { draws, .. })) => draws.push(Draw { kernel, bound, vertices }),
+            (Err(error), _) => recorder.push(Err(error)),
+            (Ok(_), _) => {
+                let what = format!("a draw of \"{}\"", kernel.name);
+                recorder
+                    .push(Err(GpuError::Refused { what, cause: "no attachments were recorded before it".to_owned() }));
             }
-        })
-    };
-    let written = |read: &GpuBuffer| buffers(true).any(|(_, buffer)| buffer.raw() == read.raw());
-    buffers(false).find(|(_, buffer)| written(buffer)).map(|(binding, _)| binding.name.as_str())
-}
-
-fn check_kind(kind: BindingKind, resource: &Resource) -> Result<(), String> {
-    let fits = match resource {
-        Resource::Buffer(..) => matches!(kind, BindingKind::Storage { .. } | BindingKind::Uniform),
-        Resource::Uniform(_) => kind == BindingKind::Uniform,
-        Resource::Texture(_) => kind == BindingKind::Texture,
-        Resource::Sampler(_) => kind == BindingKind::Sampler,
-    };
-    let declared = match kind {
-        BindingKind::Uniform => "uniform",
-        BindingKind::Storage { .. } => "storage buffer",
-        BindingKind::Texture => "texture",
-        BindingKind::Sampler => "sampler",
-    };
-    if fits { Ok(()) } else { Err(format!("the kernel declares a {declared}, something else is bound")) }
+        }
+    }
 }

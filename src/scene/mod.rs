@@ -26,7 +26,7 @@ pub use bounds::Aabb;
 pub use camera::OrbitCamera;
 pub use material::{AlphaMode, Material, Texture, TextureRef, Wrap};
 pub use mesh::{Mesh, Primitive};
-pub use motion::{Motion, Object};
+pub use motion::{Motion, MotionReport, Object};
 pub use pose::Pose;
 pub use skin::Skin;
 

@@ -36,36 +36,70 @@ pub enum Motion {
 /// a value is not motion, and not stretch.
 pub(super) const LAST_BITS: f64 = 1.0 / (1 << 20) as f64;
 
-impl Scene {
-    /// One object per node with a mesh, in node order.
-    pub fn objects(&self) -> Vec<Object> {
-        let mut objects: Vec<Object> = self.mesh_nodes().collect();
-        for (object, stretch) in objects.iter_mut().zip(self.mean_stretches()) {
-            object.stretch = stretch.unwrap_or(DMat3::IDENTITY);
-        }
-        objects
-    }
+/// The objects of a scene, and those among them (by index) that the method shows in part or not at all.
+#[derive(Clone, Debug)]
+pub struct MotionReport {
+    pub objects: Vec<Object>,
+    /// Their matrices are singular or not finite at all times.
+    pub hidden: Vec<usize>,
+    /// Their stretch strays from the mean that is baked, so far that some vertex is half a cell or
+    /// more off at some time; the largest such distance in cells.
+    pub stretching: Vec<(usize, f64)>,
+}
 
-    /// Objects that no clip ever shows, because their matrices are singular or not finite; by
-    /// index into [`Scene::objects`].
-    pub fn hidden_objects(&self) -> Vec<usize> {
-        let stretches = self.mean_stretches();
-        (0..stretches.len()).filter(|&object| stretches[object].is_none()).collect()
-    }
-
-    /// What of the scene's motion is shown approximately or not at all, a sentence each.
-    pub fn motion_warnings(&self, span: f64) -> Vec<String> {
-        let names: Vec<String> = self.mesh_nodes().map(|object| object.name).collect();
-        let hidden = self.hidden_objects().into_iter().map(|object| {
-            format!("object \"{}\" is hidden: its matrix is singular or not finite at all times", names[object])
+impl MotionReport {
+    /// A sentence for each object that is hidden or stretches.
+    pub fn warnings(&self) -> Vec<String> {
+        let name = |object: usize| &self.objects[object].name;
+        let hidden = self.hidden.iter().map(|&object| {
+            format!("object \"{}\" is hidden: its matrix is singular or not finite at all times", name(object))
         });
-        let stretching = self.stretching_objects(span).into_iter().map(|(object, cells)| {
+        let stretching = self.stretching.iter().map(|&(object, cells)| {
             format!(
                 "object \"{}\" stretches by up to {cells:.1} cells; it is moved with its mean stretch",
-                names[object]
+                name(object)
             )
         });
         hidden.chain(stretching).collect()
+    }
+}
+
+impl Scene {
+    /// One object per node with a mesh, in node order.
+    pub fn objects(&self) -> Vec<Object> {
+        self.objects_and_hidden().0
+    }
+
+    /// [`Scene::objects`] and what of their motion cannot be shown with cells of `span` scene units.
+    pub fn motion_report(&self, span: f64) -> MotionReport {
+        let (objects, hidden) = self.objects_and_hidden();
+        let stretching = self.strays(&objects, span);
+        MotionReport { objects, hidden, stretching }
+    }
+
+    /// By index into [`Scene::objects`]; see [`MotionReport::hidden`].
+    pub fn hidden_objects(&self) -> Vec<usize> {
+        self.objects_and_hidden().1
+    }
+
+    /// See [`MotionReport::warnings`].
+    pub fn motion_warnings(&self, span: f64) -> Vec<String> {
+        self.motion_report(span).warnings()
+    }
+
+    /// By index into [`Scene::objects`]; see [`MotionReport::stretching`].
+    pub fn stretching_objects(&self, span: f64) -> Vec<(usize, f64)> {
+        self.strays(&self.objects(), span)
+    }
+
+    fn objects_and_hidden(&self) -> (Vec<Object>, Vec<usize>) {
+        let mut objects: Vec<Object> = self.mesh_nodes().collect();
+        let means = self.mean_stretches(&objects);
+        for (object, mean) in objects.iter_mut().zip(&means) {
+            object.stretch = mean.unwrap_or(DMat3::IDENTITY);
+        }
+        let hidden = (0..objects.len()).filter(|&object| means[object].is_none()).collect();
+        (objects, hidden)
     }
 
     /// The objects before their stretch is known.

@@ -20,20 +20,16 @@ const MAX_STRETCH_SAMPLES: usize = 65;
 const STRETCHING_CELLS: f64 = 0.5;
 
 impl Scene {
-    /// Objects whose stretch strays from the mean that is baked, so far that some vertex is half a
-    /// cell or more off at some time: index into [`Scene::objects`] and the largest distance in
-    /// cells of `span` scene units. A shift common to all vertices does not count.
-    pub fn stretching_objects(&self, span: f64) -> Vec<(usize, f64)> {
-        let objects: Vec<Object> = self.mesh_nodes().collect();
-        let stretches = self.mean_stretches();
-        let mut probes: Vec<(usize, Probe)> = objects
-            .iter()
-            .enumerate()
-            .filter(|(_, object)| object.motion != Motion::Static)
-            .filter_map(|(index, object)| {
-                Some((index, Probe::new(self, object, stretches[index]?, STRETCHING_CELLS * span)))
-            })
-            .collect();
+    /// Objects of which some vertex is at some time half a cell or more away from where the baked
+    /// mean would have it: index and the largest distance in cells. A shift common to all vertices
+    /// of an object or joint does not count.
+    pub(super) fn strays(&self, objects: &[Object], span: f64) -> Vec<(usize, f64)> {
+        let moving = objects.iter().enumerate().filter(|(_, object)| object.motion != Motion::Static);
+        let mut probes: Vec<(usize, Probe)> =
+            moving.map(|(index, object)| (index, Probe::new(self, object, STRETCHING_CELLS * span))).collect();
+        if probes.is_empty() {
+            return Vec::new();
+        }
         self.for_each_sample(|pose| {
             for (_, probe) in &mut probes {
                 probe.look_at(self, pose);
@@ -44,17 +40,16 @@ impl Scene {
     }
 
     /// By object; `None` where no moment has a regular matrix.
-    pub(super) fn mean_stretches(&self) -> Vec<Option<DMat3>> {
-        let objects: Vec<Object> = self.mesh_nodes().collect();
+    pub(super) fn mean_stretches(&self, objects: &[Object]) -> Vec<Option<DMat3>> {
         let mut nodes = vec![Mean::EMPTY; objects.len()];
         let mut skins: Vec<(Mean, Vec<f64>)> =
-            (0..self.skins.len()).map(|skin| (Mean::EMPTY, self.joint_uses(skin, &objects))).collect();
+            (0..self.skins.len()).map(|skin| (Mean::EMPTY, self.joint_uses(skin, objects))).collect();
         let rest = self.pose(None, 0.0);
-        for (mean, object) in nodes.iter_mut().zip(&objects).filter(|(_, object)| object.motion == Motion::Static) {
+        for (mean, object) in nodes.iter_mut().zip(objects).filter(|(_, object)| object.motion == Motion::Static) {
             mean.add(&rest.world_from_node[object.node], 1.0);
         }
         self.for_each_sample(|pose| {
-            for (mean, object) in nodes.iter_mut().zip(&objects).filter(|(_, object)| object.motion == Motion::Rigid) {
+            for (mean, object) in nodes.iter_mut().zip(objects).filter(|(_, object)| object.motion == Motion::Rigid) {
                 mean.add(&pose.world_from_node[object.node], 1.0);
             }
             for (skin, (mean, uses)) in skins.iter_mut().enumerate() {
@@ -138,8 +133,7 @@ fn without_last_bits(stretch: DMat3) -> DMat3 {
 
 /// Finds how far one object strays from its mean stretch.
 struct Probe<'a> {
-    object: Object,
-    mean: DMat3,
+    object: &'a Object,
     mesh: &'a Mesh,
     /// Of what each joint moves; a single one for a rigid object.
     boxes: Vec<Option<Aabb>>,
@@ -149,13 +143,13 @@ struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
-    fn new(scene: &'a Scene, object: &Object, mean: DMat3, threshold: f64) -> Self {
+    fn new(scene: &'a Scene, object: &'a Object, threshold: f64) -> Self {
         let mesh = &scene.meshes[object.mesh];
         let boxes = match object.motion {
             Motion::Skinned { skin } => joint_boxes(mesh, scene.skins[skin].joints.len()),
             Motion::Static | Motion::Rigid => vec![scene.mesh_box(object.mesh)],
         };
-        Self { object: object.clone(), mean, mesh, boxes, largest: 0.0, threshold }
+        Self { object, mesh, boxes, largest: 0.0, threshold }
     }
 
     fn look_at(&mut self, scene: &Scene, pose: &Pose) {
@@ -174,7 +168,7 @@ impl<'a> Probe<'a> {
         let (Some(bounds), Some(polar)) = (bounds, right_polar(DMat3::from_mat4(*matrix))) else {
             return Stray { difference: DMat3::ZERO, center: DVec3::ZERO, bound: 0.0 };
         };
-        let (difference, center) = (polar.stretch - self.mean, bounds.center());
+        let (difference, center) = (polar.stretch - self.object.stretch, bounds.center());
         let distances = bounds.corners().map(|corner| (difference * (corner - center)).length());
         Stray { difference, center, bound: distances.into_iter().fold(0.0, f64::max) }
     }

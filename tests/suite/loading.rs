@@ -2,15 +2,23 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
 use octolume::{
     progress::Progress,
-    scene::{self, Scene},
+    scene::{self, Scene, load::LoadError},
 };
+use serde_json::json;
+
+use crate::document::Document;
 
 /// The folder of real scenes, where there is one; tests pass without it.
 pub fn shared_gltf() -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     ["../shared/gltf", "../../shared/gltf"].map(|path| root.join(path)).into_iter().find(|path| path.is_dir())
+}
+
+fn open(path: &Path) -> Result<Scene, LoadError> {
+    scene::load::open(path, &Progress::default())
 }
 
 /// Triangles drawn (instances counted), objects, skins, distinct joints, clips.
@@ -43,7 +51,153 @@ fn real_scenes_hold_what_their_list_says() {
         ("SimpleSparseAccessor/SimpleSparseAccessor.gltf", [12, 1, 0, 0, 0]),
     ];
     for (path, expected) in expected {
-        let scene = scene::load::open(&folder.join(path), &Progress::default()).expect(path);
+        let scene = open(&folder.join(path)).expect(path);
         assert_eq!(counts(&scene), expected, "{path}");
     }
+}
+
+/// Every file opens, or is refused with a sentence that names it.
+#[test]
+fn no_file_panics() {
+    let Some(folder) = shared_gltf() else { return };
+    let mut folders = vec![folder];
+    let mut opened = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+            if path.is_dir() {
+                folders.push(path);
+            } else if extension == "gltf" || extension == "glb" {
+                match open(&path) {
+                    Ok(scene) => opened += usize::from(scene.bounds_over_time().is_some()),
+                    Err(error) => assert!(error.to_string().starts_with(&path.display().to_string()), "{error}"),
+                }
+            }
+        }
+    }
+    assert!(opened > 40, "{opened} files with something in them");
+}
+
+#[test]
+fn bad_numbers_are_refused_by_name() {
+    let mut document = Document::new();
+    let positions = document.floats("VEC3", &[0.0, 0.0, 0.0, 1.0, f32::NAN, 0.0, 0.0, 0.0, 1.0]);
+    document.mesh("broken", json!({ "attributes": { "POSITION": positions } }));
+    let refusal = document.refusal();
+    assert!(
+        refusal.starts_with("test.gltf: mesh 0 \"broken\", primitive 0, POSITION: is not finite at vertex 1"),
+        "{refusal}"
+    );
+
+    let mut document = Document::with_triangle();
+    let indices = document.indices(&[0, 1, 3]);
+    document.json["meshes"][0]["primitives"][0]["indices"] = json!(indices);
+    let refusal = document.refusal();
+    assert!(refusal.ends_with("mesh 0 \"tri\", primitive 0, indices: index 2 names vertex 3 of 3"), "{refusal}");
+
+    let mut document = Document::with_triangle();
+    document.json["nodes"][0]["translation"] = json!([1e300, 0, 0]);
+    assert_eq!(document.refusal(), "test.gltf: node 0 \"n\": has a transform that is not finite");
+}
+
+#[test]
+fn structure_that_does_not_hold_is_refused() {
+    let refusal = |change: &dyn Fn(&mut Document)| {
+        let mut document = Document::with_triangle();
+        change(&mut document);
+        document.refusal()
+    };
+    let says = |text: &str, change: &dyn Fn(&mut Document)| {
+        let refusal = refusal(change);
+        assert!(refusal.starts_with("test.gltf: ") && refusal.contains(text), "{refusal}");
+    };
+    says("reads past the end of its buffer view", &|document| document.json["accessors"][0]["count"] = json!(4));
+    says("reads past the end", &|document| document.json["accessors"][0]["count"] = json!(u64::MAX / 12));
+    says("ends outside buffer 0", &|document| document.json["bufferViews"][0]["byteOffset"] = json!(u64::MAX));
+    says("stride of 4", &|document| document.json["bufferViews"][0]["byteStride"] = json!(4));
+    says("names accessor 9", &|document| {
+        document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(9)
+    });
+    says("KHR_draco_mesh_compression cannot be read", &|document| {
+        document.json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
+        document.json["extensionsUsed"] = json!(["KHR_draco_mesh_compression"]);
+    });
+    says("version \"1.0\"", &|document| document.json["asset"]["version"] = json!("1.0"));
+    says("nodes[0].mesh: index out of bounds (and 1 more)", &|document| {
+        document.json["nodes"][0]["mesh"] = json!(7);
+        document.json["nodes"][0]["skin"] = json!(7);
+    });
+    says("is its own ancestor", &|document| {
+        document.add("nodes", json!({ "children": [2] }));
+        document.add("nodes", json!({ "children": [1] }));
+    });
+    says("is a child of node 1 and of node 2", &|document| {
+        document.add("nodes", json!({ "children": [0] }));
+        document.add("nodes", json!({ "children": [0] }));
+    });
+    says("rotation that is zero", &|document| document.json["nodes"][0]["rotation"] = json!([0, 0, 0, 0]));
+}
+
+#[test]
+fn binary_headers_are_checked() {
+    let refusal = |bytes: &[u8]| {
+        scene::load::open_bytes("a.glb", bytes, None, &Progress::default()).expect_err("refused").to_string()
+    };
+    assert_eq!(refusal(b"glTF\x02\0\0\0\0\0\0\0"), "a.glb: GLB header: declares 0 bytes in a file of 12");
+    assert_eq!(refusal(b"glTF"), "a.glb: GLB header: has version 0, and only glTF 2.0 can be read");
+    assert!(refusal(b"glTF\x02\0\0\0\xff\xff\xff\xff").contains("declares 4294967295 bytes"));
+    assert!(refusal(b"").starts_with("a.glb: document: is not glTF: "));
+    let missing = scene::load::open(Path::new("no/such.glb"), &Progress::default()).expect_err("refused").to_string();
+    assert!(missing.starts_with("no/such.glb: cannot be read: "), "{missing}");
+}
+
+#[test]
+fn parents_come_before_children() {
+    let mut document = Document::with_triangle();
+    document.json["nodes"][0]["translation"] = json!([1, 0, 0]);
+    document.add("nodes", json!({ "name": "middle", "children": [0], "translation": [10, 0, 0] }));
+    document.add("nodes", json!({ "name": "root", "children": [1], "translation": [100, 0, 0] }));
+    let scene = document.open().expect("opens");
+    let names: Vec<&str> = scene.nodes.iter().map(|node| node.name.as_str()).collect();
+    assert_eq!(names, ["root", "middle", "n"]);
+    assert_eq!(scene.pose(None, 0.0).world_from_node[2].w_axis.truncate(), DVec3::new(111.0, 0.0, 0.0));
+}
+
+#[test]
+fn only_the_default_scene_is_drawn() {
+    let mut document = Document::with_triangle();
+    document.add("nodes", json!({ "name": "other", "mesh": 0 }));
+    document.json["scenes"] = json!([{ "nodes": [0] }, { "nodes": [1] }]);
+    document.json["scene"] = json!(1);
+    let scene = document.open().expect("opens");
+    assert_eq!(scene.objects().iter().map(|object| object.node).collect::<Vec<_>>(), [1]);
+    assert_eq!(scene.warnings, ["1 node with a mesh left out: only the default scene is drawn"]);
+}
+
+#[test]
+fn files_beside_the_document_are_found() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut document = Document::with_triangle();
+    std::fs::write(folder.path().join("a b ♻.bin"), document.buffer()).expect("written");
+    document.json["buffers"] = json!([{ "byteLength": document.buffer().len(), "uri": "a%20b%20%E2%99%BB.bin" }]);
+    let path = folder.path().join("scene.gltf");
+    std::fs::write(&path, document.bytes()).expect("written");
+    let scene = open(&path).expect("opens");
+    assert_eq!((scene.name.as_str(), scene.meshes[0].triangle_count()), ("scene", 1));
+    assert!(document.refusal().contains("opened from memory"));
+    std::fs::remove_file(folder.path().join("a b ♻.bin")).expect("removed");
+    let refusal = open(&path).expect_err("refused").to_string();
+    assert!(refusal.contains("buffer 0 (a b ♻.bin) cannot be read"), "{refusal}");
+}
+
+#[test]
+fn opening_can_be_cancelled() {
+    let progress = Progress::default();
+    progress.cancel();
+    let result = scene::load::open_bytes("test.gltf", &Document::with_triangle().bytes(), None, &progress);
+    assert_eq!(result.expect_err("cancelled").to_string(), "test.gltf: opening was cancelled");
+    let progress = Progress::default();
+    scene::load::open_bytes("test.gltf", &Document::with_triangle().bytes(), None, &progress).expect("opens");
+    assert_eq!(progress.fraction(), 1.0);
 }

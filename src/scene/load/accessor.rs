@@ -84,7 +84,7 @@ impl Source {
         let declared = declared.ok_or_else(|| format!("buffer view {view} does not exist"))?;
         let buffer = self.buffers.get(declared.buffer.value());
         let buffer = buffer.ok_or_else(|| format!("buffer {} does not exist", declared.buffer))?;
-        let buffer = buffer.as_ref().map_err(|cause| format!("needs {cause}"))?;
+        let buffer = buffer.as_ref().map_err(|cause| format!("needs data that is not there: {cause}"))?;
         let start = to_usize(declared.byte_offset.unwrap_or_default().0)?;
         let end = start.checked_add(to_usize(declared.byte_length.0)?);
         end.and_then(|end| buffer.get(start..end)).ok_or_else(|| {

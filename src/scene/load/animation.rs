@@ -7,7 +7,7 @@ use gltf::json::{
 };
 
 use super::{
-    error::{About, Defect, label},
+    error::{About, Defect, counted, label},
     nodes::unit_quaternion,
     source::Source,
 };
@@ -51,7 +51,8 @@ pub(super) fn load(
         channels.push(read_channel(source, sampler, node, property).about(object)?);
     }
     if morphs > 0 {
-        warnings.push(format!("{name}: {morphs} channels animate morph targets; they are left out"));
+        let left_out = counted(morphs, "channel", "channels");
+        warnings.push(format!("{name}: {left_out} left out: morph targets are not animated"));
     }
     Ok(Clip {
         name: animation.name.clone().unwrap_or_else(|| format!("animation {index}")),

@@ -58,3 +58,8 @@ pub(super) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
         _ => format!("{kind} {index}"),
     }
 }
+
+/// `1 vertex`, `3 vertices`.
+pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}

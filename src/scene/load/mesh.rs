@@ -13,7 +13,7 @@ use gltf::json::{
 
 use super::{
     accessor::Elements,
-    error::{About, Defect, label},
+    error::{About, Defect, counted, label},
     source::Source,
     weights::Influences,
 };
@@ -77,8 +77,8 @@ fn load_primitive(
     let corners = attributes.corners(primitive.indices)?;
     let mut triangles = triangles(&corners, mode);
     if mode == Mode::Triangles && corners.len() % 3 != 0 {
-        let (object, left) = (&attributes.primitive, corners.len() % 3);
-        warnings.push(format!("{object}: {left} vertices at its end make no triangle; they are left out"));
+        let left_out = counted(corners.len() % 3, "vertex", "vertices");
+        warnings.push(format!("{}: {left_out} left out: too few at its end for a triangle", attributes.primitive));
     }
     let flat = !attributes.has(Semantic::Normals);
     attributes.vertices =

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 pub use error::LoadError;
 
 use self::{
-    error::Defect,
+    error::{Defect, counted},
     material::Textures,
     nodes::Hierarchy,
     source::{SUPPORTED_EXTENSIONS, Source},
@@ -111,7 +111,8 @@ fn read_meshes(source: &Source, progress: &Progress, warnings: &mut Vec<String>)
         warnings.extend(loaded.warnings);
     }
     if without_surface > 0 {
-        warnings.push(format!("{without_surface} primitives are points or lines, which have no surface; left out"));
+        let left_out = counted(without_surface, "primitive", "primitives");
+        warnings.push(format!("{left_out} left out: points and lines have no surface"));
     }
     Ok(meshes)
 }

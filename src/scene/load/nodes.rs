@@ -3,7 +3,7 @@
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use gltf::json::{self, Root, camera::Type as CameraType, validation::Checked};
 
-use super::error::{Defect, label};
+use super::error::{Defect, counted, label};
 use crate::scene::{Light, LightKind, LocalTransform, Node, Projection, SceneCamera, Trs};
 
 /// Where each node of the file ends up.
@@ -53,7 +53,8 @@ impl Hierarchy {
         let drawn = self.drawn(root);
         let hidden = self.order.iter().filter(|&&node| !drawn[node] && root.nodes[node].mesh.is_some()).count();
         if hidden > 0 {
-            warnings.push(format!("{hidden} nodes with a mesh belong to no drawn scene; they are left out"));
+            let left_out = counted(hidden, "node with a mesh", "nodes with a mesh");
+            warnings.push(format!("{left_out} left out: only the default scene is drawn"));
         }
         self.order
             .iter()

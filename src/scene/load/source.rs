@@ -8,7 +8,8 @@ use gltf::json;
 use super::error::Defect;
 
 /// Extensions whose content is understood; a file that requires any other is refused.
-pub(super) const SUPPORTED_EXTENSIONS: [&str; 2] = ["KHR_lights_punctual", "KHR_materials_emissive_strength"];
+pub(super) const SUPPORTED_EXTENSIONS: [&str; 3] =
+    ["KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization"];
 
 /// A document and its bytes. A buffer that cannot be had is an error only where something reads it.
 pub(super) struct Source {
@@ -24,11 +25,13 @@ pub(super) fn parse(bytes: &[u8], base_dir: Option<&Path>) -> Result<Source, Def
     let gltf = gltf::Gltf::from_slice_without_validation(bytes)
         .map_err(|error| Defect::new("document", format!("is not glTF: {error}")))?;
     let blob = gltf.blob;
-    let root = gltf.document.into_json();
+    let mut root = gltf.document.into_json();
     check_version(&root)?;
     check_required_extensions(&root)?;
     check_position_accessors(&root)?;
-    let document = gltf::Document::from_json(root).map_err(|error| Defect::new("document", error.to_string()))?;
+    // Checked above, against what is read here; the validator knows fewer.
+    root.extensions_required.clear();
+    let document = gltf::Document::from_json(root).map_err(first_of)?;
     let buffers = document
         .as_json()
         .buffers
@@ -37,6 +40,18 @@ pub(super) fn parse(bytes: &[u8], base_dir: Option<&Path>) -> Result<Source, Def
         .map(|(index, buffer)| read_buffer(index, buffer, blob.as_deref(), base_dir))
         .collect();
     Ok(Source { document, buffers })
+}
+
+/// One sentence for what may be a long list.
+fn first_of(error: gltf::Error) -> Defect {
+    match &error {
+        gltf::Error::Validation(errors) if !errors.is_empty() => {
+            let (path, first) = &errors[0];
+            let more = if errors.len() > 1 { format!(" (and {} more)", errors.len() - 1) } else { String::new() };
+            Defect::new(path.to_string(), format!("{}{more}", first.to_string().to_lowercase()))
+        }
+        _ => Defect::new("document", error.to_string()),
+    }
 }
 
 /// The parser subtracts the header's size from the declared length unchecked.

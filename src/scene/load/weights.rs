@@ -3,7 +3,7 @@
 use gltf::json::{mesh::Semantic, validation::Checked};
 
 use super::{
-    error::{About, Defect},
+    error::{About, Defect, counted},
     mesh::Attributes,
 };
 
@@ -92,19 +92,20 @@ fn strongest(mut all: Vec<(u32, f32)>, repairs: &mut Repairs) -> ([u32; KEPT], [
 
 impl Repairs {
     fn report(&self, primitive: &str, warnings: &mut Vec<String>) {
+        let vertices = |count| counted(count, "vertex", "vertices");
         if self.without_weight > 0 {
-            let count = self.without_weight;
-            warnings.push(format!("{primitive}: {count} vertices have no joint weight; they follow their first joint"));
+            let count = vertices(self.without_weight);
+            warnings.push(format!("{primitive}: {count} without joint weight, bound to the first joint named"));
         }
         if self.negative > 0 {
-            let count = self.negative;
-            warnings.push(format!("{primitive}: {count} vertices have negative joint weights, which count as 0"));
+            let count = vertices(self.negative);
+            warnings.push(format!("{primitive}: {count} with negative joint weights, taken as 0"));
         }
         if self.dropped > 0 {
-            let (count, percent) = (self.dropped, 100.0 * self.largest_dropped_share);
+            let (count, percent) = (vertices(self.dropped), 100.0 * self.largest_dropped_share);
             warnings.push(format!(
-                "{primitive}: {count} vertices follow more than {KEPT} joints; the strongest are kept, \
-                 which drops up to {percent:.2} % of a vertex"
+                "{primitive}: {count} with more than {KEPT} joints, of which the strongest are kept; \
+                 up to {percent:.2} % of the weight of a vertex is dropped"
             ));
         }
     }

@@ -1,0 +1,250 @@
+//! Runs a plan: owns what is on the GPU and turns each frame's rows into submissions short enough
+//! that a window on the same queue stays fluid. Window and command line drive this same engine.
+//!
+//! ```text
+//! request(settings) ─► plan ─► steps ─► one Job a step ─► image, reports, timings
+//! ```
+//!
+//! A frame that has begun building is finished before the next request is looked at, so that a
+//! playing animation always shows something.
+
+mod built_octree;
+mod picture;
+mod read_voxels;
+mod report;
+mod scene_on_gpu;
+mod steps;
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::data::octree::Slot;
+use crate::data::pages::SegmentOrder;
+use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, KernelTiming};
+use crate::plan::{self, Changes, FramePlan, SceneFacts};
+use crate::prepare::{ExactVoxels, FrameMatrices, MotionError, Prepared};
+use crate::settings::{Filter, Look, Settings, View};
+use crate::stages::view::Picture;
+
+pub use built_octree::BuiltOctree;
+use picture::ExactMasks;
+pub use read_voxels::WorldVoxels;
+pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
+use scene_on_gpu::SceneOnGpu;
+use steps::{Running, Step};
+
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EngineError {
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    #[error("no scene is open")]
+    NoScene,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EngineState {
+    /// The part of the frame that is done, 0 to 1.
+    Working { fraction: f32 },
+    /// Everything asked for is there.
+    Idle,
+}
+
+pub struct Engine {
+    gpu: Arc<Gpu>,
+    segment_order: SegmentOrder,
+    prepared: Option<Arc<Prepared>>,
+    exact: Option<Arc<ExactVoxels>>,
+    wanted: Option<Wanted>,
+    plan: FramePlan,
+    done: Done,
+    running: Option<Running>,
+    scene: Option<SceneOnGpu>,
+    shown: BuiltOctree,
+    other: BuiltOctree,
+    exact_bits: Option<(Arc<ExactVoxels>, GpuBuffer)>,
+    comparison_counts: Slot,
+    comparison: steps::Comparison,
+    exact_masks: ExactMasks,
+    picture: Option<Picture>,
+    timings: steps::FrameTimings,
+}
+
+/// One request, with its pose folded.
+#[derive(Clone, Debug)]
+struct Wanted {
+    settings: Settings,
+    size_px: [u32; 2],
+    frame: FrameMatrices,
+    facts: SceneFacts,
+}
+
+/// What the results on the GPU were made from; `None` where there is none, or it is out of date.
+#[derive(Clone, Debug, Default)]
+struct Done {
+    /// World voxels follow the matrices that `scene` holds.
+    moved: bool,
+    octree: Option<(Filter, u32)>,
+    object_numbers: bool,
+    other: Option<(Filter, u32)>,
+    compared: Option<Arc<ExactVoxels>>,
+    view: Option<(Look, [u32; 2])>,
+    /// What the mesh view last drew.
+    mesh_frame: Option<FrameMatrices>,
+    exact_masks: Option<Arc<ExactVoxels>>,
+}
+
+impl Engine {
+    pub fn new(gpu: Arc<Gpu>) -> Self {
+        Self::with_segment_order(gpu, SegmentOrder::default())
+    }
+
+    /// Results do not depend on the order in which segments are taken; tests show that.
+    pub fn with_segment_order(gpu: Arc<Gpu>, segment_order: SegmentOrder) -> Self {
+        Self {
+            exact_masks: ExactMasks::default(),
+            picture: None,
+            gpu,
+            segment_order,
+            prepared: None,
+            exact: None,
+            wanted: None,
+            plan: FramePlan::default(),
+            done: Done::default(),
+            running: None,
+            scene: None,
+            shown: BuiltOctree::default(),
+            other: BuiltOctree::default(),
+            exact_bits: None,
+            comparison_counts: Slot::default(),
+            comparison: steps::Comparison::default(),
+            timings: steps::FrameTimings::default(),
+        }
+    }
+
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// Another scene, or other caches of it; everything on the GPU is dropped.
+    pub fn set_prepared(&mut self, prepared: Option<Arc<Prepared>>) {
+        self.running = None;
+        self.wanted = None;
+        self.done = Done::default();
+        self.scene = None;
+        self.shown = BuiltOctree::default();
+        self.other = BuiltOctree::default();
+        self.exact = None;
+        self.exact_bits = None;
+        self.exact_masks = ExactMasks::default();
+        self.comparison = steps::Comparison::default();
+        self.timings = steps::FrameTimings::default();
+        self.prepared = prepared;
+    }
+
+    pub fn prepared(&self) -> Option<&Arc<Prepared>> {
+        self.prepared.as_ref()
+    }
+
+    /// The exact voxels of the pose that is requested; `None` while they are not known.
+    pub fn set_exact(&mut self, exact: Option<Arc<ExactVoxels>>) {
+        self.exact = exact;
+    }
+
+    /// What is wanted now. Cheap: the frame begins with the next [`Self::advance`].
+    pub fn request(&mut self, settings: &Settings, size_px: [u32; 2]) -> Result<(), EngineError> {
+        let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
+        let frame = prepared.fold(&settings.motion, settings.discretization.anchor)?;
+        let facts = scene_on_gpu::facts(prepared, &frame);
+        // A picture has at least one pixel.
+        let size_px = size_px.map(|size| size.max(1));
+        self.wanted = Some(Wanted { settings: settings.clone(), size_px, frame, facts });
+        if self.running.is_none() {
+            self.make_plan();
+        }
+        Ok(())
+    }
+
+    fn make_plan(&mut self) {
+        let Some(wanted) = &self.wanted else { return };
+        self.plan = plan::plan(&wanted.facts, &self.changes(wanted), &wanted.settings);
+    }
+
+    fn changes(&self, wanted: &Wanted) -> Changes {
+        let discretization = &wanted.settings.discretization;
+        let key = (discretization.filter, discretization.dense_level());
+        let other = (other_filter(discretization.filter), discretization.dense_level());
+        let of_frame = self.scene.as_ref().map(|scene| scene.changes(&wanted.frame)).unwrap_or_default();
+        let fresh = |done: &Option<Arc<ExactVoxels>>| match (&self.exact, done) {
+            (Some(exact), Some(done)) => !Arc::ptr_eq(exact, done),
+            (exact, done) => exact.is_some() != done.is_some(),
+        };
+        let mesh_moved = wanted.settings.look.view == View::Mesh
+            && self.done.mesh_frame.as_ref().is_some_and(|frame| *frame != wanted.frame);
+        Changes {
+            caches: self.scene.is_none(),
+            residents: of_frame.residents,
+            rigid_poses: of_frame.rigid_poses || !self.done.moved,
+            skinned_poses: of_frame.skinned_poses || !self.done.moved,
+            octree: self.done.octree != Some(key),
+            other_octree: self.done.other != Some(other),
+            exact: fresh(&self.done.compared),
+            exact_masks: fresh(&self.done.exact_masks),
+            exact_known: self.exact.is_some(),
+            view: self.done.view != Some((wanted.settings.look, wanted.size_px)) || mesh_moved,
+            object_numbers: !self.done.object_numbers,
+        }
+    }
+
+    pub fn plan(&self) -> &FramePlan {
+        &self.plan
+    }
+
+    /// Submits one slice of about `budget` of GPU time if the last has finished; never blocks.
+    pub fn advance(&mut self, budget: Duration) -> Result<EngineState, EngineError> {
+        if self.running.is_none() {
+            self.make_plan();
+            if self.plan.is_idle() {
+                return Ok(EngineState::Idle);
+            }
+            let steps: VecDeque<Step> = steps::of_plan(&self.plan);
+            self.running = self.wanted.clone().map(|wanted| Running::new(wanted, self.plan.clone(), steps));
+        }
+        let outcome = self.run_slice(budget);
+        if outcome.is_err() {
+            self.running = None;
+        }
+        outcome
+    }
+
+    /// Runs until everything asked for is there.
+    pub fn run_to_end(&mut self) -> Result<(), EngineError> {
+        while self.advance(Duration::from_millis(200))? != EngineState::Idle {
+            self.gpu.wait()?;
+        }
+        Ok(())
+    }
+
+    /// Forgets results so that the next frame makes them again, as [`bench`](crate) needs.
+    pub fn invalidate(&mut self) {
+        self.done = Done::default();
+    }
+
+    /// Kernel times of the results that are there: the last build, and the last picture of it.
+    pub fn timings(&self) -> Vec<KernelTiming> {
+        self.timings.all()
+    }
+
+    pub fn memory(&self) -> Vec<BufferUse> {
+        self.gpu.memory()
+    }
+}
+
+fn other_filter(filter: Filter) -> Filter {
+    match filter {
+        Filter::Nearest => Filter::Split,
+        Filter::Split => Filter::Nearest,
+    }
+}

@@ -1,0 +1,110 @@
+//! The picture of a frame: which view draws it, from which camera.
+
+use super::{Engine, EngineError, Wanted};
+use crate::data::octree::{OctreeParams, Slot};
+use crate::gpu::{GpuError, GpuTexture, Recorder};
+use crate::scene::OrbitCamera;
+use crate::settings::View;
+use crate::stages::build::COUNTERS;
+use crate::stages::build::reduce::{self, Masks};
+use crate::stages::view::camera::PixelRays;
+use crate::stages::view::ghost::{self, LeafSet};
+use crate::stages::view::march::{self, MarchedOctree};
+use crate::stages::view::{GHOST_COLORS, Palette, Picture, ViewParams, shown_color};
+
+/// The masks above the exact leaves. Blocks and counters are by-products nobody reads.
+#[derive(Debug, Default)]
+pub struct ExactMasks {
+    occupied: Slot,
+    blocks: Slot,
+    counters: Slot,
+}
+
+impl Engine {
+    pub(super) fn record_exact_masks(&mut self) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let leaf_bits = self.exact_bits()?;
+        let depth = self.shown.params.depth;
+        let octree = OctreeParams::new(depth, depth - 1);
+        let gpu = &self.gpu;
+        let own = &mut self.exact_masks;
+        let masks = Masks {
+            leaf_bits,
+            occupied: own.occupied.ensure(gpu, "exact occupied masks", 4 * u64::from(octree.occupied_words()))?,
+            blocks: own.blocks.ensure(gpu, "exact block masks", 4 * u64::from(octree.blocks_words()))?,
+            counters: own.counters.ensure(gpu, "exact counters", 8 * u64::from(COUNTERS))?,
+        };
+        for level in (0..depth).rev() {
+            reduce::record(gpu, &mut frame, &octree, &masks, level);
+        }
+        Ok(frame)
+    }
+
+    pub(super) fn record_picture(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let picture = self.ensure_picture(wanted.size_px)?;
+        let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
+        let rays = PixelRays::new(&self.camera(wanted), &grid, wanted.size_px);
+        let look = &wanted.settings.look;
+        match look.view {
+            View::Voxels => {
+                let octree = self.marched_octree()?;
+                let palette = Palette::new(shown_color(look, grid.depth));
+                let view = ViewParams::new(&rays, look, grid.depth);
+                march::record(&self.gpu, &mut frame, &octree, (&view, &palette), &picture);
+            }
+            View::Ghost => {
+                let leaves = crate::settings::Look { level: None, ..*look };
+                let view = ViewParams::new(&rays, &leaves, grid.depth);
+                let (moved, exact) = self.ghost_sets()?;
+                let octree = self.shown.params;
+                ghost::record(&self.gpu, &mut frame, &octree, (&moved, &exact), (&view, &GHOST_COLORS), &picture);
+            }
+            View::Mesh => {}
+        }
+        Ok(frame)
+    }
+
+    fn marched_octree(&self) -> Result<MarchedOctree, GpuError> {
+        let missing = || GpuError::Missing { label: "octree".to_owned() };
+        MarchedOctree::new(&self.shown.params, &self.shown.buffers).ok_or_else(missing)
+    }
+
+    fn ghost_sets(&mut self) -> Result<(LeafSet, LeafSet), EngineError> {
+        let b = &self.shown.buffers;
+        let moved = LeafSet { leaf_bits: b.leaf_bits.made("leaf bits")?, occupied: b.occupied.made("occupied masks")? };
+        let occupied = self.exact_masks.occupied.made("exact occupied masks")?;
+        Ok((moved, LeafSet { leaf_bits: self.exact_bits()?, occupied }))
+    }
+
+    fn ensure_picture(&mut self, size_px: [u32; 2]) -> Result<Picture, GpuError> {
+        if let Some(picture) = &self.picture
+            && picture.size_px() == size_px
+        {
+            return Ok(picture.clone());
+        }
+        Ok(self.picture.insert(Picture::new(&self.gpu, size_px)?).clone())
+    }
+
+    /// The camera that is set, or one that frames everything.
+    fn camera(&self, wanted: &Wanted) -> OrbitCamera {
+        let aspect = f64::from(wanted.size_px[0]) / f64::from(wanted.size_px[1]);
+        let bounds = self.prepared.as_ref().and_then(|prepared| prepared.bounds);
+        wanted.settings.look.camera.unwrap_or_else(|| {
+            let mut camera = OrbitCamera::default();
+            camera.frame(bounds, aspect);
+            camera
+        })
+    }
+
+    /// The picture, gamma-encoded sRGB; `None` before the first.
+    pub fn image(&self) -> Option<&GpuTexture> {
+        self.picture.as_ref().map(|picture| &picture.color)
+    }
+
+    /// The picture's pixels. Blocks until they are here.
+    pub fn read_image(&self) -> Result<image::RgbaImage, EngineError> {
+        let missing = || GpuError::Missing { label: "picture".to_owned() };
+        Ok(self.picture.as_ref().ok_or_else(missing)?.read(&self.gpu)?)
+    }
+}

@@ -1,0 +1,58 @@
+//! Brings the leaves back: the world cells as they are after transformation.
+
+use glam::DVec3;
+
+use super::{Engine, EngineError};
+use crate::data::grid::morton_cell;
+use crate::data::octree::FULL_WEIGHT;
+use crate::data::packing::{unpack_normal, unpack_rgba8};
+use crate::gpu::GpuError;
+
+/// World cells sorted by Morton key; all vectors are equally long.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WorldVoxels {
+    pub cells: Vec<[i32; 3]>,
+    /// 0 to 1.
+    pub occupancy: Vec<f32>,
+    /// Linear.
+    pub albedo: Vec<[f32; 3]>,
+    /// Unit length, or zero where normals cancel.
+    pub normal: Vec<[f32; 3]>,
+}
+
+/// Mean normals shorter than this have no direction: half a step of the packing.
+const CANCELLED_LENGTH: f64 = 0.5 / crate::data::packing::NORMAL_MAX as f64;
+
+impl Engine {
+    /// The leaves of the octree that is shown. Blocks until they are here.
+    pub fn read_voxels(&self) -> Result<WorldVoxels, EngineError> {
+        let mut voxels = WorldVoxels::default();
+        if self.done.octree.is_none() {
+            return Ok(voxels);
+        }
+        let octree = &self.shown.params;
+        let b = &self.shown.buffers;
+        let leaf_bits: Vec<u32> = self.read_all(&b.leaf_bits, "leaf bits", (1 << (3 * octree.depth)) / 32)?;
+        let leaves: Vec<u32> = self.read_all(&b.leaves, "leaves", 3 * u64::from(octree.leaf_count))?;
+        // Leaves are stored in key order, so the set bits name them one after the other.
+        let keys = leaf_bits.iter().enumerate().flat_map(|(word, &bits)| {
+            (0..32).filter(move |bit| bits >> bit & 1 == 1).map(move |bit| 32 * word as u32 + bit)
+        });
+        for (key, leaf) in keys.zip(leaves.chunks_exact(3)) {
+            voxels.cells.push(morton_cell(key).map(|c| c as i32));
+            voxels.occupancy.push((f64::from(leaf[0]) / f64::from(FULL_WEIGHT)) as f32);
+            let [r, g, b, _] = unpack_rgba8(leaf[1]);
+            voxels.albedo.push([r as f32, g as f32, b as f32]);
+            voxels.normal.push(direction(unpack_normal(leaf[2])));
+        }
+        Ok(voxels)
+    }
+
+    fn read_all(&self, slot: &crate::data::octree::Slot, label: &str, words: u64) -> Result<Vec<u32>, GpuError> {
+        self.gpu.read(&slot.made(label)?, 0..4 * words)
+    }
+}
+
+fn direction(mean: DVec3) -> [f32; 3] {
+    if mean.length() < CANCELLED_LENGTH { [0.0; 3] } else { mean.normalize().as_vec3().to_array() }
+}

@@ -1,0 +1,347 @@
+//! A frame in steps: what a plan's rows become, and how one slice of them runs.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::built_octree::BuiltOctree;
+use super::scene_on_gpu::SceneOnGpu;
+use super::{Engine, EngineError, EngineState, Wanted, other_filter};
+use crate::gpu::{GpuBuffer, GpuError, Job, JobState, KernelTiming, PendingRead, Recorder};
+use crate::plan::{FramePlan, Pass};
+use crate::settings::View;
+use crate::stages::compare::compare_sets;
+use crate::stages::transform::{MovingVoxels, rigid, skinned};
+
+/// Which of the two octrees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    Shown,
+    Other,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    UploadCaches,
+    Move,
+    Masks(Which),
+    /// Brings the sizes back before anything is stored.
+    Sizes(Which),
+    Nodes(Which),
+    /// Brings the root back.
+    Root(Which),
+    NumberObjects,
+    ReduceExact,
+    Picture,
+    Compare(Which),
+    /// Brings holes and spill back.
+    Counts(Which),
+}
+
+/// The steps of a plan, in order.
+pub fn of_plan(plan: &FramePlan) -> VecDeque<Step> {
+    let build = |which| [Step::Masks(which), Step::Sizes(which), Step::Nodes(which), Step::Root(which)];
+    let mut steps = VecDeque::new();
+    if plan.runs(Pass::UploadCaches) {
+        steps.push_back(Step::UploadCaches);
+    }
+    if plan.runs(Pass::ObjectIo) || plan.runs(Pass::TransformRigid) || plan.runs(Pass::TransformSkinned) {
+        steps.push_back(Step::Move);
+    }
+    if plan.runs(Pass::MarkLeaves) {
+        steps.extend(build(Which::Shown));
+    }
+    if plan.runs(Pass::NumberObjects) {
+        steps.push_back(Step::NumberObjects);
+    }
+    if plan.runs(Pass::ReduceExact) {
+        steps.push_back(Step::ReduceExact);
+    }
+    if [Pass::MarchVoxels, Pass::DrawMesh, Pass::MarchGhost].into_iter().any(|pass| plan.runs(pass)) {
+        steps.push_back(Step::Picture);
+    }
+    if plan.runs(Pass::BuildOther) {
+        steps.extend(build(Which::Other));
+    }
+    if plan.runs(Pass::CompareExact) {
+        for which in [Which::Shown, Which::Other] {
+            steps.extend([Step::Compare(which), Step::Counts(which)]);
+        }
+    }
+    steps
+}
+
+/// A frame on its way.
+pub struct Running {
+    wanted: Wanted,
+    plan: FramePlan,
+    steps: VecDeque<Step>,
+    total: usize,
+    work: Option<Work>,
+}
+
+enum Work {
+    Job(Box<Job>),
+    Read(PendingRead),
+}
+
+impl Running {
+    pub fn new(wanted: Wanted, plan: FramePlan, steps: VecDeque<Step>) -> Self {
+        let total = steps.len();
+        Self { wanted, plan, steps, total, work: None }
+    }
+
+    fn state(&self, part_of_step: f32) -> EngineState {
+        let left = self.steps.len() as f32 - part_of_step;
+        EngineState::Working { fraction: 1.0 - left / self.total.max(1) as f32 }
+    }
+}
+
+/// Holes, spill and cells in both, of the shown octree and the other.
+#[derive(Clone, Debug, Default)]
+pub struct Comparison {
+    pub shown: Option<[u64; 3]>,
+    pub other: Option<[u64; 3]>,
+}
+
+/// Kernel times of the parts of a frame, each kept until it runs again.
+#[derive(Clone, Debug, Default)]
+pub struct FrameTimings {
+    pub moved: Vec<KernelTiming>,
+    build: Vec<KernelTiming>,
+    numbered: Vec<KernelTiming>,
+    picture: Vec<KernelTiming>,
+    compared: Vec<KernelTiming>,
+}
+
+impl FrameTimings {
+    pub fn all(&self) -> Vec<KernelTiming> {
+        [&self.moved, &self.build, &self.numbered, &self.picture, &self.compared]
+            .into_iter()
+            .flatten()
+            .cloned()
+            .collect()
+    }
+}
+
+impl Engine {
+    /// One slice of the running frame.
+    pub(super) fn run_slice(&mut self, budget: Duration) -> Result<EngineState, EngineError> {
+        let Some(mut running) = self.running.take() else { return Ok(EngineState::Idle) };
+        let Some(&step) = running.steps.front() else { return Ok(EngineState::Idle) };
+        let work = match running.work.take() {
+            Some(work) => Some(work),
+            None => self.start(step, &running)?,
+        };
+        let part = match work {
+            None => None,
+            Some(Work::Job(mut job)) => match job.advance(&self.gpu, budget)? {
+                JobState::Done => None,
+                JobState::Running { submitted } => {
+                    running.work = Some(Work::Job(job));
+                    Some(submitted)
+                }
+            },
+            Some(Work::Read(read)) => match read.take(&self.gpu)? {
+                Some(bytes) => {
+                    self.received(step, &bytes);
+                    None
+                }
+                None => {
+                    running.work = Some(Work::Read(read));
+                    Some(0.0)
+                }
+            },
+        };
+        if part.is_none() {
+            running.steps.pop_front();
+            self.finished(step, &running.wanted);
+        }
+        let state = running.state(part.unwrap_or(0.0));
+        if !running.steps.is_empty() {
+            self.running = Some(running);
+        }
+        Ok(state)
+    }
+
+    fn start(&mut self, step: Step, running: &Running) -> Result<Option<Work>, EngineError> {
+        let job = |recorder| Ok(Some(Work::Job(Box::new(Job::new(recorder)))));
+        match step {
+            Step::UploadCaches => {
+                self.upload_caches()?;
+                Ok(None)
+            }
+            Step::Move => job(self.record_move(running)?),
+            Step::Masks(which) => job(self.record_masks(which, &running.wanted)?),
+            Step::Nodes(which) => {
+                let voxels = self.voxels()?;
+                let gpu = Arc::clone(&self.gpu);
+                job(self.octree(which).record_nodes(&gpu, &voxels)?)
+            }
+            Step::NumberObjects => {
+                let voxels = self.voxels()?;
+                job(self.shown.record_object_numbers(&self.gpu, &voxels)?)
+            }
+            Step::ReduceExact => job(self.record_exact_masks()?),
+            Step::Picture => job(self.record_picture(&running.wanted)?),
+            Step::Compare(which) => job(self.record_comparison(which)?),
+            Step::Sizes(which) => {
+                let octree = self.octree(which);
+                let (buffer, bytes) = octree.sizes().ok_or_else(|| missing("octree sizes"))?;
+                let buffer = buffer.clone();
+                self.read(&buffer, bytes)
+            }
+            Step::Root(which) => {
+                let nodes = self.octree(which).buffers.nodes.made("nodes")?;
+                self.read(&nodes, 8)
+            }
+            Step::Counts(_) => {
+                let counts = self.counts_buffer()?;
+                self.read(&counts, 4 * compare_sets::COUNT_WORDS)
+            }
+        }
+    }
+
+    fn read(&self, buffer: &GpuBuffer, bytes: u64) -> Result<Option<Work>, EngineError> {
+        Ok(Some(Work::Read(self.gpu.start_read(buffer, 0..bytes)?)))
+    }
+
+    fn octree(&mut self, which: Which) -> &mut BuiltOctree {
+        match which {
+            Which::Shown => &mut self.shown,
+            Which::Other => &mut self.other,
+        }
+    }
+
+    fn voxels(&self) -> Result<MovingVoxels, GpuError> {
+        self.scene.as_ref().and_then(SceneOnGpu::moving_voxels).ok_or_else(|| missing("world voxel pages"))
+    }
+
+    fn upload_caches(&mut self) -> Result<(), EngineError> {
+        let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
+        self.scene = Some(SceneOnGpu::upload(&self.gpu, prepared, self.segment_order)?);
+        Ok(())
+    }
+
+    /// Object I-O, the frame's matrices, and the transform of what moved.
+    fn record_move(&mut self, running: &Running) -> Result<Recorder, EngineError> {
+        // From here on nothing built before holds, also if this frame fails half-way.
+        self.done.moved = false;
+        self.done.octree = None;
+        self.done.other = None;
+        let scene = self.scene.as_mut().ok_or(EngineError::NoScene)?;
+        scene.set_frame(&self.gpu, &running.wanted.frame)?;
+        let grid = scene.grid_cells();
+        let mut frame = Recorder::default();
+        let voxels = self.voxels()?;
+        if running.plan.runs(Pass::TransformRigid) {
+            rigid::record(&self.gpu, &mut frame, &voxels, grid);
+        }
+        if running.plan.runs(Pass::TransformSkinned) {
+            let joints = voxels.cache_joints.as_ref().ok_or_else(|| missing("cache joints"))?;
+            skinned::record(&self.gpu, &mut frame, &voxels, joints, grid);
+        }
+        Ok(frame)
+    }
+
+    fn record_masks(&mut self, which: Which, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        let voxels = self.voxels()?;
+        let discretization = &wanted.settings.discretization;
+        let filter = match which {
+            Which::Shown => discretization.filter,
+            Which::Other => other_filter(discretization.filter),
+        };
+        match which {
+            Which::Shown => {
+                self.done.octree = None;
+                self.done.object_numbers = false;
+                self.done.view = None;
+            }
+            Which::Other => self.done.other = None,
+        }
+        self.done.compared = None;
+        let gpu = Arc::clone(&self.gpu);
+        let shape = (discretization.depth(), discretization.dense_level(), filter);
+        Ok(self.octree(which).record_masks(&gpu, &voxels, shape)?)
+    }
+
+    fn record_comparison(&mut self, which: Which) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let exact = self.exact_bits()?;
+        let counts = self.counts_buffer()?;
+        let moved = self.octree(which).buffers.leaf_bits.made("leaf bits")?;
+        compare_sets::record(&self.gpu, &mut frame, &moved, &exact, &counts);
+        Ok(frame)
+    }
+
+    /// The exact set on the GPU, uploaded when it is first compared or shown.
+    pub(super) fn exact_bits(&mut self) -> Result<GpuBuffer, EngineError> {
+        let exact = self.exact.clone().ok_or_else(|| missing("exact bits"))?;
+        if let Some((uploaded, buffer)) = &self.exact_bits
+            && Arc::ptr_eq(uploaded, &exact)
+        {
+            return Ok(buffer.clone());
+        }
+        let buffer = self.gpu.upload("exact bits", &exact.bits)?;
+        self.exact_bits = Some((exact, buffer.clone()));
+        Ok(buffer)
+    }
+
+    fn counts_buffer(&mut self) -> Result<GpuBuffer, GpuError> {
+        self.comparison_counts.ensure(&self.gpu, "comparison counts", 4 * compare_sets::COUNT_WORDS)
+    }
+
+    /// Bytes a step asked for have come.
+    fn received(&mut self, step: Step, bytes: &[u8]) {
+        let words: Vec<u32> = bytemuck::pod_collect_to_vec(bytes);
+        match step {
+            Step::Sizes(which) => self.octree(which).set_sizes(&words),
+            Step::Root(which) => self.octree(which).occupancy = u64::from(words[0]) | u64::from(words[1]) << 32,
+            Step::Counts(Which::Shown) => self.comparison.shown = Some([0, 1, 2].map(|i| u64::from(words[i]))),
+            Step::Counts(Which::Other) => self.comparison.other = Some([0, 1, 2].map(|i| u64::from(words[i]))),
+            _ => {}
+        }
+    }
+
+    /// Notes what now holds.
+    fn finished(&mut self, step: Step, wanted: &Wanted) {
+        let took = self.gpu.take_timings();
+        let discretization = &wanted.settings.discretization;
+        match step {
+            Step::UploadCaches => {}
+            Step::Move => {
+                self.done.moved = true;
+                self.timings.moved = took;
+            }
+            Step::Masks(which) => self.octree(which).timings = took,
+            Step::Nodes(which) => self.octree(which).timings.extend(took),
+            Step::Root(Which::Shown) => {
+                self.done.octree = Some((discretization.filter, discretization.dense_level()));
+                self.timings.build = self.shown.timings.clone();
+            }
+            Step::Root(Which::Other) => {
+                self.done.other = Some((other_filter(discretization.filter), discretization.dense_level()));
+            }
+            Step::NumberObjects => {
+                self.done.object_numbers = true;
+                self.timings.numbered = took;
+            }
+            Step::ReduceExact => self.done.exact_masks = self.exact.clone(),
+            Step::Picture => self.picture_finished(wanted, took),
+            Step::Compare(Which::Shown) => self.timings.compared = took,
+            Step::Compare(Which::Other) => self.timings.compared.extend(took),
+            Step::Counts(Which::Other) => self.done.compared = self.exact.clone(),
+            Step::Sizes(_) | Step::Counts(Which::Shown) => {}
+        }
+    }
+
+    fn picture_finished(&mut self, wanted: &Wanted, took: Vec<KernelTiming>) {
+        self.timings.picture = took;
+        self.done.view = Some((wanted.settings.look, wanted.size_px));
+        self.done.mesh_frame = (wanted.settings.look.view == View::Mesh).then(|| wanted.frame.clone());
+    }
+}
+
+fn missing(label: &str) -> GpuError {
+    GpuError::Missing { label: label.to_owned() }
+}

@@ -1,0 +1,188 @@
+//! Triangles: a pipeline of a vertex and a fragment shader, and what it draws into.
+//!
+//! Vertices are read from storage buffers by number, so a draw binds by name like any kernel.
+//! Depth is reversed: 1 is near, 0 is nothing.
+
+use std::sync::{Arc, Mutex};
+
+use wgpu::naga;
+use wgpu_profiler::GpuProfilerQuery;
+
+use super::bindings::KernelBinding;
+use super::cost::Cost;
+use super::encode::{Piece, Scratch, end_query};
+use super::recorder::Draw;
+use super::reflect::{parse, used_bindings};
+use super::shaders::Source;
+use super::{Gpu, GpuError, lock};
+
+pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+pub(super) const LABEL: &str = "triangles";
+const FRAGMENT: &str = "fragment";
+
+/// A compiled pair of shaders, or the reason it is none: a [`super::Job`] reports that.
+#[derive(Debug)]
+pub struct RasterKernel {
+    /// Path below `shaders/` without the extension.
+    pub name: String,
+    pub bindings: Vec<KernelBinding>,
+    pub(super) pipeline: Result<wgpu::RenderPipeline, GpuError>,
+    /// Per vertex.
+    pub(super) cost: Mutex<Cost>,
+}
+
+/// Attachments, cleared before the first draw.
+#[derive(Clone, Debug)]
+pub struct RasterTarget {
+    pub colors: Vec<(wgpu::TextureView, wgpu::Color)>,
+    /// Of [`DEPTH_FORMAT`].
+    pub depth: wgpu::TextureView,
+}
+
+impl Gpu {
+    /// The triangle shaders of `shaders/PATH`: vertex entry point `vertex`, fragment entry point
+    /// `fragment`. Compiled on first need.
+    pub fn raster_kernel(
+        &self,
+        path: &'static str,
+        vertex: &'static str,
+        colors: &[wgpu::TextureFormat],
+    ) -> Arc<RasterKernel> {
+        let mut kernels = lock(&self.raster_kernels);
+        let kernel = kernels.entry((path, vertex)).or_insert_with(|| Arc::new(compile(self, path, vertex, colors)));
+        Arc::clone(kernel)
+    }
+}
+
+fn compile(gpu: &Gpu, path: &str, vertex: &str, colors: &[wgpu::TextureFormat]) -> RasterKernel {
+    let compiled = Source::embedded(path).and_then(|source| {
+        let bindings = reflect(&source, vertex)?;
+        Ok((bindings, create_pipeline(gpu, &source, vertex, colors)?))
+    });
+    let (bindings, pipeline) = match compiled {
+        Ok((bindings, pipeline)) => (bindings, Ok(pipeline)),
+        Err(error) => (Vec::new(), Err(error)),
+    };
+    RasterKernel { name: path.trim_end_matches(".wgsl").to_owned(), bindings, pipeline, cost: Mutex::default() }
+}
+
+fn reflect(source: &Source, vertex: &str) -> Result<Vec<KernelBinding>, GpuError> {
+    let refused = |cause| GpuError::Shader { place: source.path.clone(), cause };
+    let (module, info) = parse(source)?;
+    let find = |name: &str, stage| {
+        let found = module.entry_points.iter().position(|entry| entry.name == name && entry.stage == stage);
+        found.ok_or_else(|| refused(format!("there is no {stage:?} entry point \"{name}\"")))
+    };
+    let entries = [find(vertex, naga::ShaderStage::Vertex)?, find(FRAGMENT, naga::ShaderStage::Fragment)?];
+    let (bindings, _) = used_bindings(&module, &info, &entries).map_err(refused)?;
+    Ok(bindings)
+}
+
+fn create_pipeline(
+    gpu: &Gpu,
+    source: &Source,
+    vertex: &str,
+    colors: &[wgpu::TextureFormat],
+) -> Result<wgpu::RenderPipeline, GpuError> {
+    gpu.counted(|counters| counters.pipelines += 1);
+    let targets: Vec<_> = colors.iter().map(|&format| Some(wgpu::ColorTargetState::from(format))).collect();
+    gpu.checked(&source.path, || {
+        let module = &gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(&source.path),
+            source: wgpu::ShaderSource::Wgsl(source.wgsl.as_str().into()),
+        });
+        let compilation_options = wgpu::PipelineCompilationOptions::default();
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(&source.path),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some(vertex),
+                compilation_options: compilation_options.clone(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(FRAGMENT),
+                compilation_options,
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    })
+}
+
+/// Vertices `piece.first..piece.end` of all draws, counted through.
+pub(super) fn encode(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    (target, draws): (&RasterTarget, &[Draw]),
+    piece: &Piece,
+    scratch: &Scratch,
+) -> Result<(), GpuError> {
+    let mut ready = Vec::new();
+    let mut before = 0;
+    for draw in draws {
+        let after = before + u64::from(draw.vertices);
+        let (first, end) = (piece.first.clamp(before, after), piece.end.clamp(before, after));
+        if first < end {
+            let pipeline = draw.kernel.pipeline.as_ref().map_err(Clone::clone)?;
+            let group = draw.bound.group(gpu, &pipeline.get_bind_group_layout(0), &scratch.uniforms)?;
+            ready.push((pipeline, group, (first - before) as u32..(end - before) as u32));
+        }
+        before = after;
+    }
+    let query = scratch.profiler.as_ref().map(|profiler| profiler.begin_pass_query(LABEL, encoder));
+    let timestamp_writes = query.as_ref().and_then(GpuProfilerQuery::render_pass_timestamp_writes);
+    let mut pass = begin_raster(encoder, target, piece.first == 0, timestamp_writes);
+    for (pipeline, group, vertices) in ready {
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(vertices, 0..1);
+    }
+    drop(pass);
+    end_query(encoder, query, scratch);
+    Ok(())
+}
+
+fn begin_raster<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    target: &RasterTarget,
+    clear: bool,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) -> wgpu::RenderPass<'a> {
+    let color = |(view, color): &'_ (wgpu::TextureView, wgpu::Color)| {
+        (view.clone(), if clear { wgpu::LoadOp::Clear(*color) } else { wgpu::LoadOp::Load })
+    };
+    let colors: Vec<_> = target.colors.iter().map(color).collect();
+    let attachments: Vec<_> = colors
+        .iter()
+        .map(|(view, load)| {
+            let ops = wgpu::Operations { load: *load, store: wgpu::StoreOp::Store };
+            Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
+        })
+        .collect();
+    let load = if clear { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(LABEL),
+        color_attachments: &attachments,
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &target.depth,
+            depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        }),
+        timestamp_writes,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}

@@ -1,0 +1,91 @@
+//! GPU textures that say how large they are, and how to read them back.
+
+use std::sync::Arc;
+
+use image::RgbaImage;
+
+use super::buffer::{BufferUse, Registry};
+use super::{Gpu, GpuError, lock};
+
+/// A shared handle to a 2-D texture and its full view.
+#[derive(Clone, Debug)]
+pub struct GpuTexture(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    raw: wgpu::Texture,
+    view: wgpu::TextureView,
+    serial: u64,
+    registry: Registry,
+}
+
+impl GpuTexture {
+    pub fn raw(&self) -> &wgpu::Texture {
+        &self.0.raw
+    }
+
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.0.view
+    }
+
+    /// Width and height.
+    pub fn size_px(&self) -> [u32; 2] {
+        [self.0.raw.width(), self.0.raw.height()]
+    }
+}
+
+impl Drop for Inner {
+    fn drop(&mut self) {
+        lock(&self.registry).remove(&self.serial);
+    }
+}
+
+impl Gpu {
+    /// A texture, listed in [`Gpu::memory`] while it lives.
+    pub fn texture(&self, descriptor: &wgpu::TextureDescriptor<'_>) -> Result<GpuTexture, GpuError> {
+        let label = descriptor.label.unwrap_or_default();
+        let (size, limit) = (descriptor.size, self.limits.max_texture_dimension_2d);
+        if size.width == 0 || size.height == 0 || size.width > limit || size.height > limit {
+            let cause = format!("{} x {} pixels; a texture has 1 to {limit} a side", size.width, size.height);
+            return Err(self.refused(&format!("texture \"{label}\""), &cause));
+        }
+        let raw = self.checked(label, || self.device.create_texture(descriptor))?;
+        let bytes = (0..descriptor.mip_level_count).map(|level| level_bytes(descriptor, level)).sum();
+        let serial = self.next_serial();
+        lock(&self.registry).insert(serial, BufferUse { label: label.to_owned(), bytes });
+        let view = raw.create_view(&wgpu::TextureViewDescriptor::default());
+        Ok(GpuTexture(Arc::new(Inner { raw, view, serial, registry: Arc::clone(&self.registry) })))
+    }
+
+    /// The texels of a picture of 8-bit RGBA. Blocks until submitted work is done.
+    pub fn read_texture(&self, texture: &wgpu::Texture) -> Result<RgbaImage, GpuError> {
+        let texels = self.read_texels(texture)?;
+        let image = RgbaImage::from_raw(texture.width(), texture.height(), texels);
+        image.ok_or_else(|| self.refused("reading a picture", &format!("{:?} is no 8-bit RGBA", texture.format())))
+    }
+
+    /// All bytes of the finest level, rows from the top without padding. Blocks likewise.
+    pub fn read_texels(&self, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuError> {
+        let texel_bytes = texture.format().block_copy_size(None).unwrap_or(4);
+        let row_bytes = texture.width() * texel_bytes;
+        let pitch = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let bytes = u64::from(pitch) * u64::from(texture.height());
+        let buffer = self.uncounted_buffer("texture read-back", bytes, wgpu::BufferUsages::empty())?;
+        self.checked("texture read-back", || {
+            let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(pitch), rows_per_image: None };
+            let into = wgpu::TexelCopyBufferInfo { buffer: buffer.raw(), layout };
+            encoder.copy_texture_to_buffer(texture.as_image_copy(), into, texture.size());
+            self.queue.submit([encoder.finish()]);
+        })?;
+        let padded: Vec<u8> = self.read(&buffer, 0..buffer.bytes())?;
+        let rows = padded.chunks(pitch as usize).take(texture.height() as usize);
+        Ok(rows.flat_map(|row| &row[..row_bytes as usize]).copied().collect())
+    }
+}
+
+fn level_bytes(descriptor: &wgpu::TextureDescriptor<'_>, level: u32) -> u64 {
+    let side = |texels: u32| u64::from((texels >> level).max(1));
+    let texel_bytes = u64::from(descriptor.format.block_copy_size(None).unwrap_or(4));
+    side(descriptor.size.width) * side(descriptor.size.height) * texel_bytes
+}

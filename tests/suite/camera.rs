@@ -1,0 +1,213 @@
+//! The camera where it could break: poles, empty viewports, empty and huge scenes.
+
+use approx::assert_relative_eq;
+use glam::{DMat4, DQuat, DVec3};
+use octolume::scene::{
+    Aabb, LocalTransform, Node, OrbitCamera, Projection, Scene, SceneCamera, Trs, camera::camera_from_scene_camera,
+};
+use proptest::prelude::*;
+
+fn looking(eye: DVec3, target: DVec3) -> OrbitCamera {
+    OrbitCamera { eye, target, fov_y_degrees: 45.0 }
+}
+
+/// Finite here and as the f32 numbers a GPU gets, with a view that is a rigid motion.
+fn assert_sound(camera: &OrbitCamera, aspect: f64) {
+    let (view, projection) = (camera.camera_from_world(), camera.projection(aspect));
+    for matrix in [view, projection, projection * view] {
+        assert!(matrix.as_mat4().is_finite(), "{camera:?} at {aspect}: {matrix}");
+    }
+    let world = camera.world_from_camera();
+    for (a, b) in [(world.x_axis, world.y_axis), (world.y_axis, world.z_axis), (world.z_axis, world.x_axis)] {
+        assert!(a.dot(b).abs() < 1e-9 && (a.length() - 1.0).abs() < 1e-9, "{camera:?}");
+    }
+}
+
+/// Depth and position on the image (−1 to 1) of a world point.
+fn seen(camera: &OrbitCamera, aspect: f64, point: DVec3) -> DVec3 {
+    (camera.projection(aspect) * camera.camera_from_world()).project_point3(point)
+}
+
+#[test]
+fn looking_along_up_is_sound() {
+    for direction in [DVec3::Y, DVec3::NEG_Y, DVec3::new(1e-9, 1.0, 0.0), DVec3::new(0.0, -1.0, 1e-12)] {
+        assert_sound(&looking(direction * 5.0, DVec3::ZERO), 1.5);
+    }
+    assert_sound(&looking(DVec3::ONE, DVec3::ONE), 1.5);
+}
+
+/// Straight down is where orbiting up from the front leads: what was away is at the top.
+#[test]
+fn up_does_not_flip_at_the_pole() {
+    let mut camera = looking(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO);
+    camera.orbit(0.0, 10.0);
+    assert!(seen(&camera, 1.0, DVec3::NEG_Z).y > 0.0);
+    assert!(seen(&looking(DVec3::new(0.0, 5.0, 0.0), DVec3::ZERO), 1.0, DVec3::NEG_Z).y > 0.0);
+    camera.orbit(0.0, -20.0);
+    assert!(seen(&camera, 1.0, DVec3::NEG_Z).y < 0.0);
+    assert!(seen(&looking(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO), 1.0, DVec3::NEG_Z).y < 0.0);
+}
+
+#[test]
+fn a_viewport_of_no_size_is_sound() {
+    let mut camera = OrbitCamera::default();
+    for (width, height) in [(0.0, 0.0), (5.0, 0.0), (0.0, 5.0), (1e30, 1.0)] {
+        assert_sound(&camera, width / height);
+        camera.frame(Some(Aabb { min: DVec3::ZERO, max: DVec3::ONE }), width / height);
+        camera.pan(3.0 / height, 4.0 / height);
+        camera.orbit(3.0 / width, 4.0 / width);
+        camera.zoom(height / width);
+        assert_sound(&camera, width / height);
+    }
+}
+
+#[test]
+fn planes_out_of_order_are_sound() {
+    let camera = OrbitCamera::default();
+    for (near, far) in [(1.0, 1.0), (2.0, 1.0), (0.0, 0.0), (-1.0, 5.0), (f64::NAN, f64::NAN), (1.0, f64::INFINITY)] {
+        assert!(camera.projection_between(1.0, near, far).as_mat4().is_finite(), "{near} to {far}");
+    }
+}
+
+/// Reversed: 1 on the near plane, 0 on the far one.
+#[test]
+fn depth_is_reversed() {
+    let projection = OrbitCamera::default().projection_between(1.0, 0.5, 8.0);
+    let depth = |projection: DMat4, distance: f64| projection.project_point3(DVec3::NEG_Z * distance).z;
+    assert_relative_eq!(depth(projection, 0.5), 1.0, epsilon = 1e-14);
+    assert_relative_eq!(depth(projection, 8.0), 0.0, epsilon = 1e-14);
+    let camera = looking(DVec3::Z * 1000.0, DVec3::ZERO);
+    assert_relative_eq!(depth(camera.projection(1.0), 1.0), 1.0, epsilon = 1e-12);
+    assert!(depth(camera.projection(1.0), 1e12) > 0.0);
+}
+
+#[test]
+fn any_scene_can_be_framed() {
+    let at = |center: f64, size: f64| {
+        Some(Aabb { min: DVec3::splat(center - size / 2.0), max: DVec3::splat(center + size / 2.0) })
+    };
+    let huge = Some(Aabb { min: DVec3::splat(-f64::MAX), max: DVec3::splat(f64::MAX) });
+    let nowhere = Some(Aabb { min: DVec3::splat(f64::NAN), max: DVec3::splat(f64::INFINITY) });
+    for bounds in
+        [None, at(0.0, 0.0), at(1e6, 0.0), at(0.0, 1e6), at(1e6, 1e6), at(0.0, 1e-6), at(1e6, 1e-6), nowhere, huge]
+    {
+        let mut camera = OrbitCamera::default();
+        camera.frame(bounds, 1.6);
+        assert_sound(&camera, 1.6);
+        assert!(camera.eye != camera.target, "{bounds:?}");
+    }
+}
+
+proptest! {
+    /// Every corner of what is framed lies inside the image. A cube is not lost in it either: its
+    /// half edge h at the far side of its sphere of radius √3 h covers 0.38 of half the image at 45°.
+    #[test]
+    fn what_is_framed_is_in_view(
+        center in proptest::array::uniform3(-10.0..10.0f64),
+        size in proptest::array::uniform3(0.1..10.0f64),
+        turn in [-3.0..3.0f64, -1.5..1.5],
+        aspect in 0.2..5.0f64,
+    ) {
+        let (center, half) = (DVec3::from_array(center), DVec3::from_array(size) / 2.0);
+        let mut camera = OrbitCamera::default();
+        camera.orbit(turn[0], turn[1]);
+        let mut widest_framed = |half: DVec3| {
+            let bounds = Aabb { min: center - half, max: center + half };
+            camera.frame(Some(bounds), aspect);
+            let corners = bounds.corners().map(|corner| seen(&camera, aspect, corner));
+            corners.into_iter().fold(0.0, |widest: f64, p| widest.max(p.x.abs()).max(p.y.abs()).max(p.z.abs()))
+        };
+        let (any, cube) = (widest_framed(half), widest_framed(DVec3::splat(half.x)));
+        prop_assert!(any <= 1.0 + 1e-9, "{any}");
+        prop_assert!((0.38..=1.0 + 1e-9).contains(&cube), "{cube}");
+    }
+
+    #[test]
+    fn orbiting_keeps_the_distance(turns in proptest::collection::vec([-4.0..4.0f64, -4.0..4.0], 1..20)) {
+        let mut camera = looking(DVec3::new(3.0, 4.0, 12.0), DVec3::ZERO);
+        for turn in turns {
+            camera.orbit(turn[0], turn[1]);
+            prop_assert!((camera.distance() - 13.0).abs() < 1e-11);
+            assert_sound(&camera, 1.0);
+        }
+    }
+}
+
+#[test]
+fn orbit_pan_and_zoom_do_what_they_say() {
+    let mut camera = looking(DVec3::Z * 2.0, DVec3::ZERO);
+    camera.orbit(std::f64::consts::FRAC_PI_2, 0.0);
+    assert_near!(camera.eye, DVec3::X * 2.0, 1e-14);
+    camera.zoom(0.5);
+    assert_near!(camera.eye, DVec3::X, 1e-14);
+    let before = seen(&camera, 1.0, DVec3::ZERO);
+    camera.pan(0.25, -0.5);
+    let after = seen(&camera, 1.0, DVec3::ZERO);
+    // A height of the view is 2 on the image; the scene moves against the camera.
+    assert_near!(after - before, DVec3::new(-0.5, 1.0, 0.0), 1e-12);
+    for factor in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let still = camera;
+        camera.zoom(factor);
+        assert_eq!(camera, still);
+    }
+    for _ in 0..10_000 {
+        camera.zoom(0.5);
+    }
+    assert_sound(&camera, 1.0);
+    for _ in 0..10_000 {
+        camera.zoom(2.0);
+    }
+    assert_sound(&camera, 1.0);
+}
+
+/// A pointer drag on a screen of twice the scale factor has twice the pixels on twice the height.
+#[test]
+fn the_scale_factor_changes_nothing() {
+    let dragged = |scale_factor: f64| {
+        let (width_px, height_px) = (1280.0 * scale_factor, 800.0 * scale_factor);
+        let mut camera = OrbitCamera::default();
+        camera.pan(30.0 * scale_factor / height_px, 70.0 * scale_factor / height_px);
+        (camera, camera.projection(width_px / height_px))
+    };
+    assert_eq!(dragged(1.0), dragged(2.0));
+    assert!(dragged(0.0).1.is_finite());
+}
+
+fn camera_scene(trs: Trs, projection: Projection) -> Scene {
+    let mut scene = Scene::default();
+    scene.cameras.push(SceneCamera { name: "camera".to_owned(), projection });
+    scene.nodes.push(Node {
+        name: "node".to_owned(),
+        parent: None,
+        local: LocalTransform::Trs(trs),
+        mesh: None,
+        skin: None,
+        camera: Some(0),
+        light: None,
+    });
+    scene
+}
+
+#[test]
+fn cameras_of_the_file_can_be_taken() {
+    let perspective = Projection::Perspective { fov_y_radians: 0.5, near: 0.1, far: None };
+    let placed = Trs {
+        translation: DVec3::new(1.0, 2.0, 3.0),
+        rotation: DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2),
+        scale: DVec3::splat(0.01),
+    };
+    let scene = camera_scene(placed, perspective);
+    let camera = camera_from_scene_camera(&scene, 0, &scene.pose(None, 0.0)).expect("a camera");
+    assert_eq!((camera.eye, camera.fov_y_degrees), (placed.translation, 0.5f64.to_degrees()));
+    assert_near!(camera.target, DVec3::new(0.0, 2.0, 3.0), 1e-14);
+
+    let scene =
+        camera_scene(placed, Projection::Orthographic { half_width: 3.0, half_height: 2.0, near: 0.0, far: 9.0 });
+    let camera = camera_from_scene_camera(&scene, 0, &scene.pose(None, 0.0)).expect("a camera");
+    let top = camera.target + camera.world_from_camera().y_axis.truncate() * 2.0;
+    assert_relative_eq!(seen(&camera, 1.5, top).y, 1.0, epsilon = 1e-12);
+
+    let flat = camera_scene(Trs { scale: DVec3::ZERO, ..placed }, perspective);
+    assert_eq!(camera_from_scene_camera(&flat, 0, &flat.pose(None, 0.0)), None);
+    assert_eq!(camera_from_scene_camera(&flat, 7, &flat.pose(None, 0.0)), None);
+}
