@@ -34,3 +34,4 @@ mod transform;
 mod view;
 mod voxelization;
 mod voxelization_payload;
+mod voxelization_surface;
