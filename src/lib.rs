@@ -10,6 +10,8 @@
 //! drive the same engine with the same settings.
 
 pub mod accuracy;
+#[cfg(feature = "gui")]
+pub mod app;
 pub mod data;
 pub mod engine;
 pub mod export;

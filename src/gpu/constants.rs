@@ -6,10 +6,16 @@ use crate::data::pages::WORK_HINT_THREADS;
 use crate::data::voxel_cache::TILE_CELLS;
 use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
+use crate::stages::fill::number_objects::OBJECT_MASK;
+use crate::stages::view;
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
     ("ALBEDO_NODE_SCALE", ALBEDO_NODE_SCALE),
+    ("COLOR_LEVEL", view::COLOR_LEVEL),
+    ("COLOR_NORMAL", view::COLOR_NORMAL),
+    ("COLOR_OBJECT", view::COLOR_OBJECT),
+    ("COLOR_OCCUPANCY", view::COLOR_OCCUPANCY),
     ("COUNTER_CLIPPED", COUNTER_CLIPPED),
     ("COUNTER_OCCUPIED", COUNTER_OCCUPIED),
     ("FRACTION_BITS", FRACTION_BITS),
@@ -18,12 +24,28 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("MAX_FRAGMENTS", MAX_FRAGMENTS),
     ("NORMAL_MAX", NORMAL_MAX as u32),
     ("NO_BLOCK", NO_BLOCK),
+    ("OBJECT_MASK", OBJECT_MASK),
     ("SCAN_CHUNK", SCAN_CHUNK),
     ("TILE_CELLS", TILE_CELLS as u32),
+    ("VIEW_EDGES", view::VIEW_EDGES),
+    ("VIEW_LENGTH_RULE", view::VIEW_LENGTH_RULE),
+    ("VIEW_SHADED", view::VIEW_SHADED),
     ("WORK_HINT_THREADS", WORK_HINT_THREADS),
 ];
 
-/// One `const NAME: u32 = …;` a line.
+/// The same for numbers that are no integers.
+pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
+    ("AMBIENT", view::AMBIENT),
+    ("EDGE_FROM_PX", view::EDGE_FROM_PX),
+    ("EDGE_FULL_PX", view::EDGE_FULL_PX),
+    ("EDGE_SHADE", view::EDGE_SHADE),
+    ("LEAST_LIGHT", view::LEAST_LIGHT),
+    ("SHORT_NORMAL", view::SHORT_NORMAL),
+];
+
+/// One `const NAME: u32 = …;` or `const NAME: f32 = …;` a line.
 pub fn wgsl() -> String {
-    CONSTANTS.iter().map(|(name, value)| format!("const {name}: u32 = {value}u;\n")).collect()
+    let integers = CONSTANTS.iter().map(|(name, value)| format!("const {name}: u32 = {value}u;\n"));
+    let floats = FLOAT_CONSTANTS.iter().map(|(name, value)| format!("const {name}: f32 = {:?}f;\n", *value as f32));
+    integers.chain(floats).collect()
 }

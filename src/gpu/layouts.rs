@@ -11,6 +11,7 @@ use crate::data::pages::WorkItem;
 use crate::stages::build::LevelParams;
 use crate::stages::build::scan::ScanParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
+use crate::stages::view::{GhostColors, Palette, ViewParams};
 
 /// Both sides of a layout, as Rust sees it.
 #[derive(Clone, Copy, Debug)]
@@ -65,4 +66,25 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(LevelParams, "average/average.wgsl", "AverageParams", level),
     mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
     mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(
+        ViewParams,
+        "shared/view.wgsl",
+        "ViewParams",
+        origin,
+        width_px,
+        origin_x,
+        height_px,
+        origin_y,
+        start_cells,
+        direction,
+        level,
+        direction_x,
+        color_by,
+        direction_y,
+        flags,
+        background,
+        pad,
+    ),
+    mirror!(Palette, "shared/view.wgsl", "Palette", colors),
+    mirror!(GhostColors, "view/ghost.wgsl", "GhostColors", both, holes, spill),
 ];

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use image::RgbaImage;
+
 use super::buffer::{BufferUse, Registry};
 use super::{Gpu, GpuError, lock};
 
@@ -55,26 +57,29 @@ impl Gpu {
         Ok(GpuTexture(Arc::new(Inner { raw, view, serial, registry: Arc::clone(&self.registry) })))
     }
 
-    /// All texels of the finest level, rows without padding. Blocks until submitted work is done.
-    pub fn read_texture(&self, texture: &GpuTexture) -> Result<Vec<u8>, GpuError> {
-        let raw = texture.raw();
-        let texel_bytes = raw.format().block_copy_size(None).unwrap_or(4);
-        let row_bytes = raw.width() * texel_bytes;
+    /// The texels of a picture of 8-bit RGBA. Blocks until submitted work is done.
+    pub fn read_texture(&self, texture: &wgpu::Texture) -> Result<RgbaImage, GpuError> {
+        let texels = self.read_texels(texture)?;
+        let image = RgbaImage::from_raw(texture.width(), texture.height(), texels);
+        image.ok_or_else(|| self.refused("reading a picture", &format!("{:?} is no 8-bit RGBA", texture.format())))
+    }
+
+    /// All bytes of the finest level, rows from the top without padding. Blocks likewise.
+    pub fn read_texels(&self, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuError> {
+        let texel_bytes = texture.format().block_copy_size(None).unwrap_or(4);
+        let row_bytes = texture.width() * texel_bytes;
         let pitch = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = self.uncounted_buffer(
-            "texture read-back",
-            u64::from(pitch) * u64::from(raw.height()),
-            wgpu::BufferUsages::empty(),
-        )?;
+        let bytes = u64::from(pitch) * u64::from(texture.height());
+        let buffer = self.uncounted_buffer("texture read-back", bytes, wgpu::BufferUsages::empty())?;
         self.checked("texture read-back", || {
             let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(pitch), rows_per_image: None };
             let into = wgpu::TexelCopyBufferInfo { buffer: buffer.raw(), layout };
-            encoder.copy_texture_to_buffer(raw.as_image_copy(), into, raw.size());
+            encoder.copy_texture_to_buffer(texture.as_image_copy(), into, texture.size());
             self.queue.submit([encoder.finish()]);
         })?;
         let padded: Vec<u8> = self.read(&buffer, 0..buffer.bytes())?;
-        let rows = padded.chunks(pitch as usize).take(raw.height() as usize);
+        let rows = padded.chunks(pitch as usize).take(texture.height() as usize);
         Ok(rows.flat_map(|row| &row[..row_bytes as usize]).copied().collect())
     }
 }

@@ -7,4 +7,5 @@ pub mod build;
 pub mod compare;
 pub mod fill;
 pub mod transform;
+pub mod view;
 pub mod voxelize;

@@ -1,0 +1,67 @@
+// Marches a ray through the octree's masks and blends what it crosses, front to back. A kernel says
+// what there is: `node_occupied(level, key)`, and `seen(key, ray, walk)`, the lit colour and the
+// occupancy of an occupied cell of the shown level. It declares `picture` and `depth`.
+#import shared/octree.wgsl
+#import shared/view.wgsl
+
+// Level of the largest empty node around the cell `key` of `level`; one more than `level` where the
+// cell itself is occupied. `hint` is where to begin; neighbours mostly have the same answer.
+fn empty_level(level: u32, key: u32, hint: u32) -> u32 {
+    var l = min(hint, level);
+    if node_occupied(l, key >> (3u * (level - l))) {
+        while l < level {
+            l += 1u;
+            if !node_occupied(l, key >> (3u * (level - l))) {
+                return l;
+            }
+        }
+        return level + 1u;
+    }
+    while l > 0u && !node_occupied(l - 1u, key >> (3u * (level - l + 1u))) {
+        l -= 1u;
+    }
+    return l;
+}
+
+// All of a ray, at the shown level.
+fn march(pixel: PixelRay) -> Blend {
+    // Leaf cells a walked cell.
+    let scale = exp2(f32(octree.depth - view.level));
+    let cells = i32(1u << view.level);
+    let ray = ray_of(pixel.origin / scale, pixel.direction);
+    var walk = enter_lattice(ray, cells);
+    var light = Blend(vec3<f32>(0.0), 1.0, NEVER);
+    var hint = 0u;
+    for (var n = 0; n <= 3 * cells && walk.inside; n += 1) {
+        let key = morton_key(vec3<u32>(walk.cell));
+        let level = empty_level(view.level, key, hint);
+        hint = min(level, view.level);
+        let shift = view.level - hint;
+        let low = (walk.cell >> vec3<u32>(shift)) << vec3<u32>(shift);
+        let exit = leave_box(ray, low, 1i << shift);
+        if level > view.level && exit.t > walk.t {
+            let voxel = seen(key, ray, walk);
+            let width = pixel.width / scale + walk.t * pixel.widening;
+            let color = edged(voxel.rgb, ray_at(ray, walk.t), walk, width);
+            let alpha = voxel_alpha(voxel.a, (exit.t - walk.t) * scale);
+            light = blended(light, color, alpha, pixel.start_cells + walk.t * scale);
+            if light.through < LEAST_LIGHT {
+                break;
+            }
+        }
+        walk = walk_on(walk, ray, low, 1i << shift, exit, cells);
+    }
+    return light;
+}
+
+// The pixel of a thread.
+fn show(thread: u32) {
+    let pixel = tiled_pixel(thread);
+    if pixel.x >= view.width_px || pixel.y >= view.height_px {
+        return;
+    }
+    let light = march(pixel_ray(pixel));
+    let color = light.color + light.through * view.background;
+    textureStore(picture, pixel, vec4<f32>(gamma_from_linear(color), 1.0));
+    textureStore(depth, pixel, vec4<f32>(light.depth_cells, 0.0, 0.0, 1.0));
+}

@@ -1,0 +1,35 @@
+//! Shows the moved leaves over the exact ones: holes, spill, and what both have.
+
+use super::{GhostColors, Picture, ViewParams};
+use crate::data::octree::OctreeParams;
+use crate::gpu::{Gpu, GpuBuffer, Recorder};
+
+/// Leaf bits and the masks of all levels above them (`occupied`) of one set of leaves.
+#[derive(Clone, Debug)]
+pub struct LeafSet {
+    pub leaf_bits: GpuBuffer,
+    pub occupied: GpuBuffer,
+}
+
+/// `view.level` must be the leaves' level.
+pub fn record(
+    gpu: &Gpu,
+    frame: &mut Recorder,
+    octree: &OctreeParams,
+    (moved, exact): (&LeafSet, &LeafSet),
+    (view, colors): (&ViewParams, &GhostColors),
+    picture: &Picture,
+) {
+    frame
+        .pass(&gpu.kernel("view/ghost.wgsl", &[]))
+        .uniform("octree", octree)
+        .uniform("view", view)
+        .uniform("ghost", colors)
+        .bind("moved_bits", &moved.leaf_bits)
+        .bind("moved_occupied", &moved.occupied)
+        .bind("exact_bits", &exact.leaf_bits)
+        .bind("exact_occupied", &exact.occupied)
+        .texture("picture", picture.color.view())
+        .texture("depth", picture.distance.view())
+        .dispatch(picture.tiled_threads());
+}

@@ -1,0 +1,74 @@
+//! What a view draws into.
+
+use crate::gpu::{DEPTH_FORMAT, Gpu, GpuError, GpuTexture};
+
+/// Gamma-encoded sRGB, as egui and PNG files take it.
+pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Distance from the eye along the ray, cells; [`super::NO_DEPTH`] where there is nothing.
+pub const DISTANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+
+/// Colour and distance of every pixel.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    pub color: GpuTexture,
+    pub distance: GpuTexture,
+}
+
+impl Picture {
+    /// The error names the size where a side is zero or beyond the device's limit.
+    pub fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, GpuError> {
+        Ok(Self {
+            color: texture(gpu, "picture", size_px, COLOR_FORMAT)?,
+            distance: texture(gpu, "picture distance", size_px, DISTANCE_FORMAT)?,
+        })
+    }
+
+    pub fn size_px(&self) -> [u32; 2] {
+        self.color.size_px()
+    }
+
+    /// Pixels in tiles of 8 x 8 (shaders/shared/view.wgsl): a thread each.
+    pub fn tiled_threads(&self) -> u64 {
+        self.size_px().into_iter().map(|side| u64::from(side.next_multiple_of(8))).product()
+    }
+
+    /// Blocks until submitted work is done.
+    pub fn read(&self, gpu: &Gpu) -> Result<image::RgbaImage, GpuError> {
+        gpu.read_texture(self.color.raw())
+    }
+
+    /// Distances in cells, rows from the top. Blocks likewise.
+    pub fn read_distances(&self, gpu: &Gpu) -> Result<Vec<f32>, GpuError> {
+        gpu.read_texels(self.distance.raw()).map(|bytes| bytemuck::pod_collect_to_vec(&bytes))
+    }
+}
+
+/// What triangles need beside it to hide one another.
+pub fn depth_buffer(gpu: &Gpu, size_px: [u32; 2]) -> Result<GpuTexture, GpuError> {
+    texture(gpu, "triangle depth", size_px, DEPTH_FORMAT)
+}
+
+fn texture(
+    gpu: &Gpu,
+    label: &str,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+) -> Result<GpuTexture, GpuError> {
+    use wgpu::TextureUsages as Usage;
+    let drawn = Usage::RENDER_ATTACHMENT;
+    let usage = if format == DEPTH_FORMAT {
+        drawn
+    } else {
+        drawn | Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING | Usage::COPY_SRC
+    };
+    gpu.texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
