@@ -12,6 +12,7 @@ macro_rules! assert_near {
 }
 
 mod animation;
+mod builtin;
 mod camera;
 mod device;
 mod document;
