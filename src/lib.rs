@@ -9,8 +9,12 @@
 //! Modules in the order of the flow. The core knows nothing of egui: window and command line
 //! drive the same engine with the same settings.
 
+pub mod accuracy;
+#[cfg(feature = "gui")]
+pub mod app;
 pub mod data;
 pub mod engine;
+pub mod export;
 pub mod gpu;
 pub mod plan;
 pub mod prepare;

@@ -263,7 +263,7 @@ fn ghost(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, r
     let skip = wanted
         .or((settings.look.view != View::Ghost).then_some("another view is shown"))
         .or((!changed.exact_known).then_some("the exact voxels of this pose are not made yet"));
-    unless(skip, redraw || changed.exact, "voxels, exact set or camera changed", "nothing changed")
+    unless(skip, redraw, "voxels, exact set or camera changed", "nothing changed")
 }
 
 fn view(which: View, settings: &Settings, wanted: Option<&'static str>, redraw: bool) -> Verdict {

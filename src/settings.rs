@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::data::voxel_cache::VoxelizationMode;
 use crate::scene::OrbitCamera;
+use crate::scene::camera::FOV_Y_DEGREES;
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -12,6 +13,34 @@ pub struct Settings {
     pub discretization: Discretization,
     pub motion: MotionSettings,
     pub look: Look,
+}
+
+impl Settings {
+    /// Are all values in range? If not, the sentence names value and range. Whoever takes settings
+    /// from outside the program asks, before using them.
+    pub fn check(&self) -> Result<(), String> {
+        self.discretization.check()?;
+        self.motion.check()?;
+        let depth = self.discretization.depth();
+        if let Some(level) = self.look.level.filter(|level| *level > depth) {
+            return Err(format!("level {level} is not one of 0 (the root) to {depth} (the leaves)"));
+        }
+        self.look.camera.map_or(Ok(()), |camera| check_camera(&camera))
+    }
+}
+
+fn check_camera(camera: &OrbitCamera) -> Result<(), String> {
+    if !(camera.eye.is_finite() && camera.target.is_finite()) {
+        return Err("the camera's eye and target must be finite".to_owned());
+    }
+    if camera.eye == camera.target {
+        return Err("the camera's eye and target must differ".to_owned());
+    }
+    if !FOV_Y_DEGREES.contains(&camera.fov_y_degrees) {
+        let (least, most) = (FOV_Y_DEGREES.start(), FOV_Y_DEGREES.end());
+        return Err(format!("a field of view of {} degrees is not in {least} to {most}", camera.fov_y_degrees));
+    }
+    Ok(())
 }
 
 /// What the voxels are made of. A change of grid, span or mode voxelizes again.
@@ -44,6 +73,7 @@ impl Default for Discretization {
 
 impl Discretization {
     pub const GRIDS: [u32; 5] = [64, 128, 256, 512, 1024];
+    pub const MAX_DENSE_LEVEL: u32 = 9;
 
     /// log2 of the grid.
     pub fn depth(&self) -> u32 {
@@ -53,6 +83,21 @@ impl Discretization {
     /// The dense level, one above the leaves at most: leaves are always sparse.
     pub fn dense_level(&self) -> u32 {
         self.dense_level.min(self.depth() - 1)
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if !Self::GRIDS.contains(&self.grid) {
+            return Err(format!("a grid of {} cells is not one of {:?}", self.grid, Self::GRIDS));
+        }
+        if self.dense_level > Self::MAX_DENSE_LEVEL {
+            return Err(format!("dense level {} is not in 0 to {}", self.dense_level, Self::MAX_DENSE_LEVEL));
+        }
+        match self.span {
+            Some(span) if !(span.is_finite() && span > 0.0) => {
+                Err(format!("a span of {span} scene units is not a finite number above 0"))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -92,6 +137,18 @@ pub struct MotionSettings {
     pub time_secs: f64,
     /// Turns the whole scene about its centre, x, then y, then z axis, after voxelization: a rigid motion of everything.
     pub turn_degrees: [f64; 3],
+}
+
+impl MotionSettings {
+    fn check(&self) -> Result<(), String> {
+        if !(self.time_secs.is_finite() && self.time_secs >= 0.0) {
+            return Err(format!("a time of {} seconds is not a finite number from 0", self.time_secs));
+        }
+        if !self.turn_degrees.iter().all(|angle| angle.is_finite()) {
+            return Err(format!("a turn of {:?} degrees is not finite", self.turn_degrees));
+        }
+        Ok(())
+    }
 }
 
 impl Default for MotionSettings {

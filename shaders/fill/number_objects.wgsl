@@ -20,7 +20,7 @@ override WORKGROUP_SIZE: u32 = 64u;
 override SPLIT: bool = true;
 
 fn leaf_slot(key: u32) -> u32 {
-    let below = leaf_bits[key >> 5u] >> (key & 24u) & ((1u << (key & 7u)) - 1u);
+    let below = (leaf_bits[key >> 5u] >> (key & 24u)) & ((1u << (key & 7u)) - 1u);
     return block_starts[2u * leaf_block_rank(key >> 3u) + 1u] + countOneBits(below);
 }
 

@@ -10,9 +10,7 @@ struct TransformParams {
 
 // grid_from_cache, row by row; the centre's half cell is folded into the translation on the CPU.
 struct Matrix3x4 {
-    row0: vec4<f32>,
-    row1: vec4<f32>,
-    row2: vec4<f32>,
+    rows: array<vec4<f32>, 3>,
 }
 
 // A tile of an object's cache and what moves it.
@@ -24,20 +22,19 @@ struct Part {
     joints_skew: u32,
     // Object number in the scene.
     object: u32,
-    pad0: u32,
-    pad1: u32,
+    pad: vec2<u32>,
 }
 
 fn move_position(position: vec3<f32>, m: Matrix3x4) -> vec3<f32> {
-    return vec3<f32>(dot(m.row0.xyz, position) + m.row0.w, dot(m.row1.xyz, position) + m.row1.w, dot(m.row2.xyz, position) + m.row2.w);
+    return vec3<f32>(dot(m.rows[0].xyz, position) + m.rows[0].w, dot(m.rows[1].xyz, position) + m.rows[1].w, dot(m.rows[2].xyz, position) + m.rows[2].w);
 }
 
 fn move_normal(normal: vec3<f32>, m: Matrix3x4) -> vec3<f32> {
-    let c0 = cross(m.row1.xyz, m.row2.xyz);
-    let c1 = cross(m.row2.xyz, m.row0.xyz);
-    let c2 = cross(m.row0.xyz, m.row1.xyz);
+    let c0 = cross(m.rows[1].xyz, m.rows[2].xyz);
+    let c1 = cross(m.rows[2].xyz, m.rows[0].xyz);
+    let c2 = cross(m.rows[0].xyz, m.rows[1].xyz);
     let moved = vec3<f32>(dot(c0, normal), dot(c1, normal), dot(c2, normal));
-    return select(moved, -moved, dot(m.row0.xyz, c0) < 0.0);
+    return select(moved, -moved, dot(m.rows[0].xyz, c0) < 0.0);
 }
 
 // q of a centre at `g` cells from the grid's corner (Eq. 2, converted once).

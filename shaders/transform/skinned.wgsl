@@ -23,7 +23,7 @@ fn add_joint(sum: Matrix3x4, joint: u32, weight: u32) -> Matrix3x4 {
     }
     let m = matrices[joint];
     let w = f32(weight) / 255.0;
-    return Matrix3x4(sum.row0 + w * m.row0, sum.row1 + w * m.row1, sum.row2 + w * m.row2);
+    return Matrix3x4(array(sum.rows[0] + w * m.rows[0], sum.rows[1] + w * m.rows[1], sum.rows[2] + w * m.rows[2]));
 }
 
 fn blended_matrix(first_matrix: u32, first_word: u32) -> Matrix3x4 {
@@ -33,7 +33,7 @@ fn blended_matrix(first_matrix: u32, first_word: u32) -> Matrix3x4 {
     if weights == 255u {
         return matrices[first_matrix + (low & 0xffffu)];
     }
-    var sum = Matrix3x4(vec4(0.0), vec4(0.0), vec4(0.0));
+    var sum = Matrix3x4();
     sum = add_joint(sum, first_matrix + (low & 0xffffu), weights & 0xffu);
     sum = add_joint(sum, first_matrix + (low >> 16u), (weights >> 8u) & 0xffu);
     sum = add_joint(sum, first_matrix + (high & 0xffffu), (weights >> 16u) & 0xffu);

@@ -24,7 +24,7 @@ use crate::data::pages::SegmentOrder;
 use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, KernelTiming};
 use crate::plan::{self, Changes, FramePlan, SceneFacts};
 use crate::prepare::{ExactVoxels, FrameMatrices, MotionError, Prepared};
-use crate::settings::{Filter, Look, Settings};
+use crate::settings::{Filter, Look, Settings, View};
 
 pub use built_octree::BuiltOctree;
 pub use picture::{PICTURE_FORMAT, Picture};
@@ -177,8 +177,9 @@ impl Engine {
             (Some(exact), Some(done)) => !Arc::ptr_eq(exact, done),
             (exact, done) => exact.is_some() != done.is_some(),
         };
-        let mesh_moved = wanted.settings.look.view == crate::settings::View::Mesh
+        let mesh_moved = wanted.settings.look.view == View::Mesh
             && self.done.mesh_frame.as_ref().is_some_and(|frame| *frame != wanted.frame);
+        let ghost_stale = wanted.settings.look.view == View::Ghost && fresh(&self.done.ghost);
         Changes {
             caches: self.scene.is_none(),
             residents: of_frame.residents,
@@ -186,9 +187,9 @@ impl Engine {
             skinned_poses: of_frame.skinned_poses || !self.done.moved,
             octree: self.done.octree != Some(key),
             other_octree: self.done.other != Some(other),
-            exact: fresh(&self.done.compared) || fresh(&self.done.ghost),
+            exact: fresh(&self.done.compared),
             exact_known: self.exact.is_some(),
-            view: self.done.view != Some((wanted.settings.look, wanted.size_px)) || mesh_moved,
+            view: self.done.view != Some((wanted.settings.look, wanted.size_px)) || mesh_moved || ghost_stale,
             object_numbers: !self.done.object_numbers,
         }
     }

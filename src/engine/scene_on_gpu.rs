@@ -159,8 +159,4 @@ impl SceneOnGpu {
     pub fn grid_cells(&self) -> u32 {
         self.prepared.grid.cells()
     }
-
-    pub fn pages(&self) -> &Pages {
-        &self.pages
-    }
 }

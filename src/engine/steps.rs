@@ -333,7 +333,9 @@ impl Engine {
         self.timings.picture = took;
         self.done.view = Some((wanted.settings.look, wanted.size_px));
         self.done.mesh_frame = (wanted.settings.look.view == View::Mesh).then(|| wanted.frame.clone());
-        self.done.ghost = self.exact_bits.as_ref().map(|(exact, _)| Arc::clone(exact));
+        if wanted.settings.look.view == View::Ghost {
+            self.done.ghost = self.exact_bits.as_ref().map(|(exact, _)| Arc::clone(exact));
+        }
     }
 }
 

@@ -25,27 +25,24 @@ pub struct Mirror {
     pub fields: &'static [(&'static str, usize)],
 }
 
-/// `field` has the same name in Rust; `field = offset` is an element of a Rust array.
 macro_rules! mirror {
-    ($rust:ty, $file:literal, $wgsl:literal, $($field:ident $(= $offset:expr)?),+ $(,)?) => {
+    ($rust:ty, $file:literal, $wgsl:literal, $($field:ident),+ $(,)?) => {
         Mirror {
             rust_name: stringify!($rust),
             file: $file,
             wgsl_name: $wgsl,
             bytes: size_of::<$rust>(),
-            fields: &[$((stringify!($field), mirror!(@offset $rust, $field $(, $offset)?))),+],
+            fields: &[$((stringify!($field), offset_of!($rust, $field))),+],
         }
     };
-    (@offset $rust:ty, $field:ident) => { offset_of!($rust, $field) };
-    (@offset $rust:ty, $field:ident, $offset:expr) => { $offset };
 }
-
-const ROWS: usize = offset_of!(Matrix3x4, rows);
-const ROW_BYTES: usize = size_of::<[f32; 4]>();
-const PART_PAD: usize = offset_of!(Part, pad);
 
 pub const MIRRORS: &[Mirror] = &[
     mirror!(Threads, "shared/threads.wgsl", "Threads", first, end),
+    mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part, object),
+    mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
+    mirror!(Matrix3x4, "shared/move_voxel.wgsl", "Matrix3x4", rows),
+    mirror!(Part, "shared/move_voxel.wgsl", "Part", origin, first_matrix, joints_skew, object, pad),
     mirror!(OctreeLevel, "shared/octree.wgsl", "OctreeLevel", occupied_word, blocks_word, first_block, first_node),
     mirror!(
         OctreeParams,
@@ -60,27 +57,6 @@ pub const MIRRORS: &[Mirror] = &[
         dense_node_count,
         pad,
         levels,
-    ),
-    mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part, object),
-    mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
-    mirror!(
-        Matrix3x4,
-        "shared/move_voxel.wgsl",
-        "Matrix3x4",
-        row0 = ROWS,
-        row1 = ROWS + ROW_BYTES,
-        row2 = ROWS + 2 * ROW_BYTES,
-    ),
-    mirror!(
-        Part,
-        "shared/move_voxel.wgsl",
-        "Part",
-        origin,
-        first_matrix,
-        joints_skew,
-        object,
-        pad0 = PART_PAD,
-        pad1 = PART_PAD + 4,
     ),
     mirror!(LevelParams, "build/reduce.wgsl", "ReduceParams", level),
     mirror!(LevelParams, "build/emit.wgsl", "EmitParams", level),

@@ -20,7 +20,7 @@ pub struct OrbitCamera {
 
 const DEFAULT_FOV_Y_DEGREES: f64 = 45.0;
 /// Outside of these, perspective is no picture any more.
-const FOV_Y_DEGREES: std::ops::RangeInclusive<f64> = 1.0..=170.0;
+pub const FOV_Y_DEGREES: std::ops::RangeInclusive<f64> = 1.0..=170.0;
 /// Orbiting stops short of the poles, where up would flip.
 const MAX_ELEVATION_RADIANS: f64 = 89.0 * std::f64::consts::PI / 180.0;
 /// The near plane's distance as a share of the target's.

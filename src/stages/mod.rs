@@ -2,6 +2,7 @@
 //! dispatch of `shaders/…/X.wgsl`, and `X_ref.rs` is its f64 reference, written from the paper.
 
 pub mod average;
+pub mod bench;
 pub mod build;
 pub mod compare;
 pub mod fill;

@@ -1,5 +1,6 @@
 //! The tests of the core: one module an area, one binary so that it links once.
 
+mod builtin;
 /// Vectors and matrices, entry by entry.
 macro_rules! assert_near {
     ($value:expr, $expected:expr, $tolerance:expr $(,)?) => {
@@ -22,5 +23,10 @@ mod scenes;
 mod shaders;
 mod skinning;
 mod view;
+mod octree;
+mod random;
+mod shaders;
+mod stage_checks;
+mod stage_rig;
 mod voxelization;
 mod voxelization_payload;

@@ -2,3 +2,4 @@
 //! nodes"). The step from the leaves is fused into gathering.
 
 pub mod average;
+pub mod average_ref;

@@ -3,11 +3,16 @@
 //! Sizes are known after the scan, before anything is stored.
 
 pub mod emit;
+pub mod emit_ref;
 pub mod mark;
+pub mod mark_ref;
 pub mod reduce;
+pub mod reduce_ref;
 pub mod scan;
 pub mod scan_spread;
+pub mod scan_spread_ref;
 pub mod scan_sum;
+pub mod scan_sum_ref;
 
 /// Counter of the split weight that fell outside the grid, in 2^-24 voxels.
 pub const COUNTER_CLIPPED: u32 = 0;

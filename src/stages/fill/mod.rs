@@ -2,10 +2,15 @@
 //! sort of the world voxels by leaf block, then one thread a block gathers integer sums.
 
 pub mod count;
+pub mod count_ref;
 pub mod gather;
 pub mod gather_heavy;
+pub mod gather_heavy_ref;
+pub mod gather_ref;
 pub mod number_objects;
+pub mod number_objects_ref;
 pub mod place;
+pub mod place_ref;
 
 use crate::gpu::GpuBuffer;
 

@@ -2,7 +2,9 @@
 //! voxels, one thread a voxel. In: caches, parts, matrices. Out: `q`, normal, albedo a slot.
 
 pub mod rigid;
+pub mod rigid_ref;
 pub mod skinned;
+pub mod skinned_ref;
 
 use bytemuck::{Pod, Zeroable};
 

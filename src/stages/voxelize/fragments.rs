@@ -72,6 +72,11 @@ pub(super) fn key_from_offset(offset: UVec3) -> u64 {
     u64::from(morton_key(tile.to_array())) << MORTON_BITS | u64::from(morton_key(cell.to_array()))
 }
 
+fn offset_from_key(key: u64) -> UVec3 {
+    let (tile, cell) = split_key(key);
+    tile << TILE_BITS | cell
+}
+
 /// Tile and cell in the tile.
 pub(super) fn split_key(key: u64) -> (UVec3, UVec3) {
     let tile = UVec3::from_array(morton_cell((key >> MORTON_BITS) as u32));
@@ -85,8 +90,9 @@ pub(super) fn same_tile(a: u64, b: u64) -> bool {
 
 /// What a few neighbouring triangles cover.
 pub(super) struct Chunk {
-    hits: Vec<(IVec3, u32)>,
-    min: IVec3,
+    /// Keys counted from the clip box's lower corner.
+    fragments: Vec<Fragment>,
+    smallest: UVec3,
     degenerate_triangles: u64,
 }
 
@@ -104,41 +110,36 @@ pub(super) fn scan(
 }
 
 impl Fragments {
-    pub fn sorted(chunks: Vec<Chunk>) -> Self {
-        let corner = smallest_cell(&chunks);
+    /// `from` is the corner the chunks' keys count from.
+    pub fn sorted(chunks: Vec<Chunk>, from: IVec3) -> Self {
+        let smallest = smallest_offset(&chunks);
         let degenerate_triangles = chunks.iter().map(|chunk| chunk.degenerate_triangles).sum();
-        let mut sorted = Vec::with_capacity(chunks.iter().map(|chunk| chunk.hits.len()).sum());
-        for chunk in chunks {
-            sorted.extend(chunk.hits.into_iter().map(|(cell, triangle)| {
-                let key = key_from_offset((cell - corner).as_uvec3());
-                Fragment { key, triangle }
-            }));
+        let mut sorted: Vec<Fragment> = Vec::with_capacity(chunks.iter().map(|chunk| chunk.fragments.len()).sum());
+        chunks.into_iter().for_each(|chunk| sorted.extend(chunk.fragments));
+        if smallest != UVec3::ZERO {
+            sorted.par_iter_mut().for_each(|fragment| {
+                fragment.key = key_from_offset(offset_from_key(fragment.key) - smallest);
+            });
         }
         sorted.par_sort_unstable_by_key(|fragment| fragment.key);
-        Self { corner, sorted, degenerate_triangles }
+        Self { corner: from + smallest.as_ivec3(), sorted, degenerate_triangles }
     }
 }
 
-/// The cells, each once, in the order of keys counted from `corner` or else the smallest cell.
-pub(super) fn sorted_cells(chunks: Vec<Chunk>, corner: Option<IVec3>) -> Vec<IVec3> {
-    let corner = corner.unwrap_or_else(|| smallest_cell(&chunks));
-    let mut keys: Vec<u64> = chunks
-        .into_iter()
-        .flat_map(|chunk| chunk.hits)
-        .map(|(cell, _)| key_from_offset((cell - corner).as_uvec3()))
-        .collect();
+/// The cells of chunks whose keys count from `from`, each once, in the order of their keys.
+pub(super) fn sorted_cells(chunks: Vec<Chunk>, from: IVec3) -> Vec<IVec3> {
+    let mut keys = Vec::with_capacity(chunks.iter().map(|chunk| chunk.fragments.len()).sum());
+    for chunk in chunks {
+        keys.extend(chunk.fragments.into_iter().map(|fragment| fragment.key));
+    }
     keys.par_sort_unstable();
     keys.dedup();
-    let cell = |key| {
-        let (tile, place) = split_key(key);
-        corner + (tile * TILE_CELLS as u32 + place).as_ivec3()
-    };
-    keys.into_par_iter().map(cell).collect()
+    keys.into_par_iter().map(|key| from + offset_from_key(key).as_ivec3()).collect()
 }
 
-fn smallest_cell(chunks: &[Chunk]) -> IVec3 {
-    let covering = chunks.iter().filter(|chunk| !chunk.hits.is_empty());
-    covering.map(|chunk| chunk.min).reduce(IVec3::min).unwrap_or_default()
+fn smallest_offset(chunks: &[Chunk]) -> UVec3 {
+    let covering = chunks.iter().filter(|chunk| !chunk.fragments.is_empty());
+    covering.map(|chunk| chunk.smallest).reduce(UVec3::min).unwrap_or_default()
 }
 
 fn scan_chunk(
@@ -149,7 +150,7 @@ fn scan_chunk(
     progress: &Progress,
 ) -> Result<Chunk, Cancelled> {
     let end = part.triangles.len().min(start + CHUNK_TRIANGLES);
-    let mut chunk = Chunk { hits: Vec::new(), min: IVec3::MAX, degenerate_triangles: 0 };
+    let mut chunk = Chunk { fragments: Vec::new(), smallest: UVec3::MAX, degenerate_triangles: 0 };
     for (i, &indices) in part.triangles[start..end].iter().enumerate() {
         let Some(triangle) = Triangle::new(part.positions, indices) else {
             chunk.degenerate_triangles += 1;
@@ -157,8 +158,9 @@ fn scan_chunk(
         };
         let number = part.first + (start + i) as u32;
         for_each_cell(&triangle, mode, clip, |cell| {
-            chunk.min = chunk.min.min(cell);
-            chunk.hits.push((cell, number));
+            let offset = (cell - clip[0]).as_uvec3();
+            chunk.smallest = chunk.smallest.min(offset);
+            chunk.fragments.push(Fragment { key: key_from_offset(offset), triangle: number });
         });
     }
     progress.advance((end - start) as u64)?;

@@ -106,8 +106,9 @@ pub fn voxelize(input: &VoxelizeInput, progress: &Progress) -> Result<VoxelCache
         input.parts.iter().map(|part| (part.positions_cells.as_slice(), part.primitive.triangles.as_slice())),
     );
     let bounds = check_vertices(&soup)?;
-    let chunks = fragments::scan(&soup, input.mode, check_size(&soup, bounds)?, progress)?;
-    let fragments = Fragments::sorted(chunks);
+    let clip = check_size(&soup, bounds)?;
+    let chunks = fragments::scan(&soup, input.mode, clip, progress)?;
+    let fragments = Fragments::sorted(chunks, clip[0]);
     if fragments.sorted.len() as u64 > MAX_FRAGMENTS {
         return Err(VoxelizeError::TooMany { cells: fragments.sorted.len() as u64, limit: MAX_FRAGMENTS });
     }
@@ -122,7 +123,7 @@ pub fn voxelize(input: &VoxelizeInput, progress: &Progress) -> Result<VoxelCache
 }
 
 /// The covered cells alone, each once, sorted by Morton key of the cell counted from `clip`'s lower
-/// corner or, without `clip`, from the smallest covered cell. `clip` is half-open.
+/// corner or, without `clip`, from the corner of the bounds. `clip` is half-open.
 pub fn voxelize_cells(
     positions_cells: &[DVec3],
     triangles: &[[u32; 3]],
@@ -131,13 +132,13 @@ pub fn voxelize_cells(
 ) -> Result<Vec<IVec3>, VoxelizeError> {
     let soup = Soup::new([(positions_cells, triangles)].into_iter());
     let bounds = check_vertices(&soup)?;
-    let cells = match clip {
+    let clip = match clip {
         Some(clip) => clip,
         None => check_size(&soup, bounds)?,
     };
-    check_extent(cells)?;
-    let chunks = fragments::scan(&soup, mode, cells, &Progress::default())?;
-    Ok(fragments::sorted_cells(chunks, clip.map(|[corner, _]| corner)))
+    check_extent(clip)?;
+    let chunks = fragments::scan(&soup, mode, clip, &Progress::default())?;
+    Ok(fragments::sorted_cells(chunks, clip[0]))
 }
 
 /// Bounds of the positions, after a look at every vertex and index.

@@ -9,7 +9,7 @@
 use glam::{DVec3, IVec3};
 use rayon::prelude::*;
 
-use super::clip::clip_to_cell;
+use super::clip::Clipper;
 use super::fragments::{Fragment, Fragments, Soup, same_tile, split_key};
 use super::joints::JointSums;
 use super::surface::{Surface, SurfaceReader};
@@ -112,8 +112,8 @@ struct Shader<'a> {
 /// A triangle while its fragments are shaded.
 struct Current<'a> {
     number: u32,
-    triangle: Triangle,
-    area: f64,
+    vertices: [u32; 3],
+    clipper: Clipper,
     part: &'a VoxelizePart<'a>,
     surface: SurfaceReader<'a>,
 }
@@ -144,7 +144,10 @@ impl<'a> Shader<'a> {
             let mut sums = Sums::default();
             joints.clear();
             for fragment in cell_fragments {
-                current = self.load(fragment.triangle, current);
+                // Neighbouring cells share triangles, so the one at hand is often the one wanted.
+                if current.as_ref().is_none_or(|current| current.number != fragment.triangle) {
+                    current = self.load(fragment.triangle);
+                }
                 if let Some(current) = &current {
                     self.add(current, cell, &mut sums, &mut joints);
                 }
@@ -164,26 +167,21 @@ impl<'a> Shader<'a> {
         run
     }
 
-    /// Neighbouring cells share triangles, so the one at hand is often the one wanted.
-    fn load(&self, number: u32, current: Option<Current<'a>>) -> Option<Current<'a>> {
-        if current.as_ref().is_some_and(|current| current.number == number) {
-            return current;
-        }
+    fn load(&self, number: u32) -> Option<Current<'a>> {
         let (index, local) = self.soup.locate(number);
         let part = &self.input.parts[index];
         let triangle = Triangle::new(&part.positions_cells, part.primitive.triangles[local])?;
-        let area = 0.5 * DVec3::from_array(triangle.projected_areas).length();
         let surface =
             SurfaceReader { primitive: part.primitive, material: self.materials[index], textures: self.input.textures };
-        Some(Current { number, triangle, area, part, surface })
+        Some(Current { number, vertices: triangle.vertices, clipper: Clipper::new(&triangle), part, surface })
     }
 
     fn add(&self, current: &Current, cell: IVec3, sums: &mut Sums, joints: &mut JointSums) {
-        let piece = clip_to_cell(&current.triangle, cell);
-        let vertices = current.triangle.vertices;
-        let surface = current.surface.read(vertices, piece.centroid, piece.area / current.area);
-        let area = ((piece.area * AREA_ONE).round() as u64).max(1);
-        let weight = (area as f64 * surface.opacity).round() as u64;
+        let piece = current.clipper.piece(cell);
+        let vertices = current.vertices;
+        let surface = current.surface.read(vertices, piece.centroid, piece.area / current.clipper.area);
+        let area = nearest(piece.area * AREA_ONE).max(1);
+        let weight = nearest(area as f64 * surface.opacity);
         let corner = |vertex: u32| current.part.normals[vertex as usize];
         let [a, b, c] = vertices.map(corner);
         let normal = (a * piece.centroid.x + b * piece.centroid.y + c * piece.centroid.z).normalize_or_zero();
@@ -194,17 +192,27 @@ impl<'a> Shader<'a> {
     }
 }
 
+/// Nearest integer to a value that is not negative, halves up; several times faster than `round`.
+fn nearest(value: f64) -> u64 {
+    (value + 0.5) as u64
+}
+
+/// Nearest integer, halves away from zero, so that opposed values stay opposed.
+fn nearest_signed(value: f64) -> i64 {
+    (value + 0.5f64.copysign(value)) as i64
+}
+
 impl Sums {
     fn add(&mut self, area: u64, weight: u64, surface: &Surface, normal: DVec3) {
-        let value = |value: f64| weight * (value * VALUE_ONE).round() as u64;
+        let value = |value: f64| weight * nearest(value * VALUE_ONE);
         self.area += area;
         self.weight += weight;
         self.metallic += value(surface.metallic);
         self.roughness += value(surface.roughness);
         for c in 0..3 {
             self.color[c] += value(surface.color[c]);
-            self.normal[c] += weight as i64 * (normal[c] * NORMAL_ONE).round() as i64;
-            self.emission[c] += u128::from(weight) * u128::from((surface.emission[c] * EMISSION_ONE).round() as u64);
+            self.normal[c] += weight as i64 * nearest_signed(normal[c] * NORMAL_ONE);
+            self.emission[c] += u128::from(weight) * u128::from(nearest(surface.emission[c] * EMISSION_ONE));
         }
     }
 

@@ -1,0 +1,71 @@
+//! What accuracy costs: which poses are compared, and a row of the resulting table.
+//!
+//! *Holes* are cells of the exact posed voxelization that no moved voxel reached; *spill* is cells
+//! that only moved voxels reached.
+
+use serde::Serialize;
+
+use crate::engine::FilterReport;
+use crate::prepare::{MotionError, Prepared};
+use crate::settings::MotionSettings;
+
+/// Turns of a scene that plays no clip: not at all, a little, and by no simple fraction.
+pub const STATIC_TURNS_DEGREES: [f64; 3] = [0.0, 10.0, 37.0];
+
+/// Where in a clip is compared, as shares of its length.
+const CLIP_SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// Three poses that show what a scene's motion does to its voxels: moments of the clip that is
+/// played, or turns about the vertical axis where none is.
+pub fn default_poses(prepared: &Prepared, motion: &MotionSettings) -> Result<Vec<MotionSettings>, MotionError> {
+    let moving = prepared.clip_index(motion)?.map(|clip| prepared.scene.clips[clip].duration_secs);
+    Ok(match moving.filter(|duration_secs| *duration_secs > 0.0) {
+        Some(duration_secs) => at_times(motion, &CLIP_SHARES.map(|share| share * duration_secs)),
+        None => turned(motion, &STATIC_TURNS_DEGREES),
+    })
+}
+
+/// The same motion at other times.
+pub fn at_times(motion: &MotionSettings, times_secs: &[f64]) -> Vec<MotionSettings> {
+    times_secs.iter().map(|&time_secs| MotionSettings { time_secs, ..motion.clone() }).collect()
+}
+
+/// The same motion, further turned about the vertical axis.
+pub fn turned(motion: &MotionSettings, turns_degrees: &[f64]) -> Vec<MotionSettings> {
+    let turned = |degrees: &f64| {
+        let [x, y, z] = motion.turn_degrees;
+        MotionSettings { turn_degrees: [x, y + degrees, z], ..motion.clone() }
+    };
+    turns_degrees.iter().map(turned).collect()
+}
+
+/// One pose on one grid, both filters.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    pub scene: String,
+    pub clip: Option<String>,
+    pub time_secs: f64,
+    pub turn_degrees: [f64; 3],
+    pub grid: u32,
+    pub span: f64,
+    /// Cells of the exact posed voxelization.
+    pub exact: u64,
+    pub nearest: FilterReport,
+    pub split: FilterReport,
+}
+
+impl Row {
+    /// Of the exact cells; `None` where holes were not counted.
+    pub fn holes_percent(&self, filter: &FilterReport) -> Option<f64> {
+        Some(percent(filter.holes?, self.exact))
+    }
+}
+
+/// Of the cells that moved voxels reached; `None` where spill was not counted.
+pub fn spill_percent(filter: &FilterReport) -> Option<f64> {
+    Some(percent(filter.spill?, filter.leaves))
+}
+
+fn percent(part: u64, whole: u64) -> f64 {
+    if whole == 0 { 0.0 } else { 100.0 * part as f64 / whole as f64 }
+}

@@ -1,0 +1,133 @@
+//! `octolume info`: what is in a scene, and what its octree holds.
+
+use std::path::PathBuf;
+
+use bytesize::ByteSize;
+use clap::Args;
+use octolume::engine::LevelReport;
+use octolume::prepare::Prepared;
+use octolume::scene::bounds::Aabb;
+use octolume::settings::{Settings, View};
+use serde::Serialize;
+
+use super::options::{Common, Moment};
+use super::session::{NO_PICTURE, Session};
+use super::{Usage, output};
+
+/// Says what is in a scene, what was repaired or left out, and what its octree holds
+#[derive(Debug, Args)]
+pub struct Info {
+    /// A .gltf or .glb file, or the name of a built-in scene
+    scene: PathBuf,
+    /// Prints JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    moment: Moment,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Serialize)]
+struct Facts {
+    name: String,
+    triangles: usize,
+    objects: usize,
+    materials: usize,
+    textures: usize,
+    skins: usize,
+    joints: usize,
+    clips: Vec<ClipFacts>,
+    extensions: Vec<String>,
+    warnings: Vec<String>,
+    /// Over all animation, scene units; none for a scene without a vertex.
+    bounds: Option<Bounds>,
+    grid: u32,
+    span: f64,
+    grid_corner: [f64; 3],
+    /// In the caches, all objects together.
+    voxels: u64,
+    levels: Vec<LevelReport>,
+}
+
+#[derive(Serialize)]
+struct ClipFacts {
+    name: String,
+    seconds: f64,
+}
+
+#[derive(Serialize)]
+struct Bounds {
+    min: [f64; 3],
+    max: [f64; 3],
+}
+
+impl Info {
+    pub fn run(&self) -> anyhow::Result<()> {
+        let mut settings = self.common.settings()?;
+        self.moment.apply(&mut settings);
+        settings.look.view = View::Voxels;
+        settings.check().map_err(Usage)?;
+        let mut session = Session::open(&self.scene, &self.common, &settings)?;
+        session.run(&settings, NO_PICTURE)?;
+        let levels = session.engine.octree_report().map(|report| report.levels).unwrap_or_default();
+        let facts = Facts::new(&session.prepared, &settings, levels);
+        if self.json { output::json(&facts) } else { output::result(&facts.text()) }
+    }
+}
+
+impl Facts {
+    fn new(prepared: &Prepared, settings: &Settings, levels: Vec<LevelReport>) -> Self {
+        let scene = &prepared.scene;
+        let objects = scene.objects();
+        Self {
+            name: scene.name.clone(),
+            triangles: objects.iter().map(|object| scene.meshes[object.mesh].triangle_count()).sum(),
+            objects: objects.len(),
+            materials: scene.materials.len(),
+            textures: scene.textures.len(),
+            skins: scene.skins.len(),
+            joints: scene.skins.iter().map(|skin| skin.joints.len()).sum(),
+            clips: scene
+                .clips
+                .iter()
+                .map(|clip| ClipFacts { name: clip.name.clone(), seconds: clip.duration_secs })
+                .collect(),
+            extensions: scene.extensions.clone(),
+            warnings: prepared.warnings.clone(),
+            bounds: prepared.bounds.map(Bounds::from),
+            grid: settings.discretization.grid,
+            span: prepared.grid.span,
+            grid_corner: prepared.grid.corner().to_array(),
+            voxels: prepared.voxel_count(),
+            levels,
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut lines = vec![
+            format!("{}: {} triangles in {} objects", self.name, self.triangles, self.objects),
+            format!("{} materials, {} textures", self.materials, self.textures),
+            format!("{} skins with {} joints", self.skins, self.joints),
+            format!("grid of {} cells of {} units, {} voxels in the caches", self.grid, self.span, self.voxels),
+        ];
+        lines.extend(self.clips.iter().map(|clip| format!("clip \"{}\", {:.3} s", clip.name, clip.seconds)));
+        if !self.extensions.is_empty() {
+            lines.push(format!("extensions: {}", self.extensions.join(", ")));
+        }
+        let rows = self.levels.iter().map(|level| {
+            let bytes = ByteSize(level.bytes).display().iec().to_string();
+            let counts = [u64::from(level.level), level.nodes, level.occupied, level.dummies];
+            counts.iter().map(u64::to_string).chain([bytes]).collect()
+        });
+        lines.push(String::new());
+        lines.push(output::table(&["level", "nodes", "occupied", "dummies", "bytes"], rows));
+        lines.join("\n")
+    }
+}
+
+impl From<Aabb> for Bounds {
+    fn from(bounds: Aabb) -> Self {
+        Self { min: bounds.min.to_array(), max: bounds.max.to_array() }
+    }
+}

@@ -1,0 +1,119 @@
+//! Options that subcommands share, and the settings they make.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use octolume::data::voxel_cache::VoxelizationMode;
+use octolume::export;
+use octolume::scene::OrbitCamera;
+use octolume::settings::{Discretization, Filter, Settings, VoxelAnchor};
+
+use super::{Usage, values};
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Common options")]
+pub struct Common {
+    /// Start from these settings: a JSON file, or a picture that Octolume wrote
+    #[arg(long, value_name = "FILE.json|SHOT.png")]
+    pub settings: Option<PathBuf>,
+    /// Cells along an axis of the grid: 64, 128, 256, 512 or 1024
+    #[arg(long, value_name = "N")]
+    grid: Option<u32>,
+    /// Edge of a cell in scene units; otherwise the scene fits in the grid at all times
+    #[arg(long, value_name = "LENGTH", value_parser = values::number, allow_hyphen_values = true)]
+    span: Option<f64>,
+    /// How a moved voxel falls into cells
+    #[arg(long, value_name = "nearest|split", value_parser = values::name::<Filter>)]
+    filter: Option<Filter>,
+    /// How a triangle becomes voxels
+    #[arg(long, value_name = "thin|conservative", value_parser = values::name::<VoxelizationMode>)]
+    mode: Option<VoxelizationMode>,
+    /// Which point of a voxel is moved
+    #[arg(long, value_name = "centre|corner", value_parser = values::name::<VoxelAnchor>)]
+    anchor: Option<VoxelAnchor>,
+    /// The octree's levels down to this one are stored densely
+    #[arg(long, value_name = "LEVEL")]
+    dense_level: Option<u32>,
+    /// Clip by name, "" for the rest pose; otherwise the first
+    #[arg(long, value_name = "NAME")]
+    clip: Option<String>,
+    /// Turns the whole scene about its centre after voxelization: degrees about x, y, z
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true)]
+    turn: Option<[f64; 3]>,
+    /// Where the camera is; otherwise it frames everything
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true, requires = "target")]
+    eye: Option<[f64; 3]>,
+    /// What the camera looks at
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true, requires = "eye")]
+    target: Option<[f64; 3]>,
+    /// The camera's vertical field of view
+    #[arg(long, value_name = "DEGREES", value_parser = values::number, allow_hyphen_values = true, requires = "eye")]
+    fov: Option<f64>,
+    /// The first GPU adapter whose name contains this
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+/// Which moment of the animation, where there is just one.
+#[derive(Debug, Args)]
+pub struct Moment {
+    /// Seconds into the clip
+    #[arg(long, value_name = "SECONDS", value_parser = values::number, allow_hyphen_values = true)]
+    pub time: Option<f64>,
+}
+
+impl Common {
+    /// The settings file's, or the default ones, with every option given put over them.
+    pub fn settings(&self) -> anyhow::Result<Settings> {
+        let mut settings = self.settings_file()?.0;
+        self.discretize(&mut settings.discretization)?;
+        if self.clip.is_some() {
+            settings.motion.clip.clone_from(&self.clip);
+        }
+        set(&mut settings.motion.turn_degrees, self.turn);
+        if let (Some(eye), Some(target)) = (self.eye, self.target) {
+            let fov_y_degrees = self.fov.unwrap_or(OrbitCamera::default().fov_y_degrees);
+            settings.look.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
+        }
+        Ok(settings)
+    }
+
+    /// The settings that the file named by `--settings` holds, and its size if it is a picture.
+    pub fn settings_file(&self) -> anyhow::Result<(Settings, Option<[u32; 2]>)> {
+        let read = |file: &Path| export::read_settings(file);
+        Ok(self.settings.as_deref().map(read).transpose()?.unwrap_or_default())
+    }
+
+    fn discretize(&self, discretization: &mut Discretization) -> Result<(), Usage> {
+        set(&mut discretization.grid, self.grid);
+        set(&mut discretization.filter, self.filter);
+        set(&mut discretization.mode, self.mode);
+        set(&mut discretization.anchor, self.anchor);
+        set(&mut discretization.dense_level, self.dense_level);
+        discretization.span = self.span.or(discretization.span);
+        let checked = Settings { discretization: *discretization, ..Settings::default() }.check();
+        checked.map_err(Usage)?;
+        match self.dense_level {
+            Some(level) if level != discretization.dense_level() => Err(Usage(format!(
+                "dense level {level} is not in 0 to {}: at a grid of {} the leaves are level {}",
+                discretization.dense_level(),
+                discretization.grid,
+                discretization.depth()
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Moment {
+    pub fn apply(&self, settings: &mut Settings) {
+        set(&mut settings.motion.time_secs, self.time);
+    }
+}
+
+/// Takes a value that was given.
+pub fn set<T>(place: &mut T, given: Option<T>) {
+    if let Some(value) = given {
+        *place = value;
+    }
+}

@@ -1,0 +1,95 @@
+//! `octolume plan`: the passes of a frame, and why each runs or does not.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use octolume::settings::{ColorBy, Filter, Settings};
+
+use super::options::{Common, Moment};
+use super::session::{NO_PICTURE, Session};
+use super::{Usage, output};
+
+/// Lists the passes of a frame, and why each runs, is reused or skipped
+#[derive(Debug, Args)]
+pub struct Plan {
+    /// A .gltf or .glb file, or the name of a built-in scene
+    scene: PathBuf,
+    /// Prints JSON: a list of pass, state, reason
+    #[arg(long)]
+    json: bool,
+    /// Plans the second frame after this change; otherwise the first
+    #[arg(long, value_name = "CHANGE")]
+    after: Option<Change>,
+    #[command(flatten)]
+    moment: Moment,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// What differs in the second frame.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Change {
+    /// Nothing
+    Still,
+    /// The camera moves
+    Camera,
+    /// The animation goes on by 1/30 s
+    Time,
+    /// The whole scene turns by a degree
+    Turn,
+    /// The other filter
+    Filter,
+    /// Another dense level
+    DenseLevel,
+    /// Colour by another property
+    Color,
+}
+
+impl Plan {
+    pub fn run(&self) -> anyhow::Result<()> {
+        let mut settings = self.common.settings()?;
+        self.moment.apply(&mut settings);
+        settings.check().map_err(Usage)?;
+        let mut session = Session::open(&self.scene, &self.common, &settings)?;
+        session.engine.request(&settings, NO_PICTURE)?;
+        if let Some(change) = self.after {
+            session.engine.run_to_end()?;
+            change.apply(&mut settings);
+            session.engine.request(&settings, NO_PICTURE)?;
+        }
+        let plan = session.engine.plan();
+        if self.json {
+            return output::json(plan);
+        }
+        let rows = plan.rows.iter().map(|row| {
+            vec![output::name_of(&row.pass), output::name_of(&row.state), row.reason.to_owned()]
+        });
+        output::result(&output::table(&["pass", "state", "reason"], rows))
+    }
+}
+
+impl Change {
+    fn apply(self, settings: &mut Settings) {
+        let Settings { discretization, motion, look } = settings;
+        match self {
+            Self::Still => {}
+            Self::Camera => look.camera.get_or_insert_default().orbit(0.1, 0.0),
+            Self::Time => motion.time_secs += 1.0 / 30.0,
+            Self::Turn => motion.turn_degrees[1] += 1.0,
+            Self::Filter => {
+                discretization.filter = match discretization.filter {
+                    Filter::Nearest => Filter::Split,
+                    Filter::Split => Filter::Nearest,
+                }
+            }
+            Self::DenseLevel => {
+                let level = discretization.dense_level();
+                discretization.dense_level = if level == 0 { 1 } else { level - 1 };
+            }
+            Self::Color => {
+                let object = look.color == ColorBy::Object;
+                look.color = if object { ColorBy::Albedo } else { ColorBy::Object };
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! `octolume render`: pictures, one or a sequence.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use octolume::export;
+use octolume::settings::{AlphaRule, ColorBy, Settings, View};
+
+use super::Usage;
+use super::options::{Common, Moment, set};
+use super::session::Session;
+use super::values::{self, Frames, Size, ViewChoice};
+
+/// Size of a picture where neither option nor settings picture tells.
+const SIZE_PX: [u32; 2] = [1280, 720];
+
+/// Draws a scene into a .png file, which carries its settings
+#[derive(Debug, Args)]
+pub struct Render {
+    /// A .gltf or .glb file, or the name of a built-in scene
+    scene: PathBuf,
+    /// The .png file to write; with --frames, -0000 and so on goes before its extension
+    #[arg(short, long, value_name = "OUT.png")]
+    output: PathBuf,
+    /// What to show
+    #[arg(long, value_name = "voxels|mesh|ghost|level:N")]
+    view: Option<ViewChoice>,
+    /// What colours mean
+    #[arg(long, value_name = "albedo|normal|occupancy|object|level", value_parser = values::name::<ColorBy>)]
+    color: Option<ColorBy>,
+    /// How a voxel of partial occupancy covers what is behind it
+    #[arg(long, value_name = "paper|length", value_parser = values::name::<AlphaRule>)]
+    alpha: Option<AlphaRule>,
+    /// Draws the edges of voxels
+    #[arg(long)]
+    edges: bool,
+    /// Shows bare colours, without the headlight
+    #[arg(long)]
+    no_shading: bool,
+    /// Pixels; 1280x720, or as large as the picture given by --settings
+    #[arg(long, value_name = "WxH")]
+    size: Option<Size>,
+    /// Draws frames A to B, both included, of the animation
+    #[arg(long, value_name = "A:B", requires = "fps", conflicts_with = "time")]
+    frames: Option<Frames>,
+    /// Frames a second: frame k is at k / FPS seconds
+    #[arg(long, value_name = "FPS", value_parser = values::frames_per_sec, requires = "frames")]
+    fps: Option<f64>,
+    #[command(flatten)]
+    moment: Moment,
+    #[command(flatten)]
+    common: Common,
+}
+
+impl Render {
+    pub fn run(&self) -> anyhow::Result<()> {
+        let mut settings = self.settings()?;
+        let size_px = self.size_px()?;
+        let mut session = Session::open(&self.scene, &self.common, &settings)?;
+        for (file, time_secs) in self.pictures(&settings) {
+            settings.motion.time_secs = time_secs;
+            draw(&mut session, &settings, size_px, &file)?;
+        }
+        Ok(())
+    }
+
+    fn settings(&self) -> anyhow::Result<Settings> {
+        let mut settings = self.common.settings()?;
+        self.moment.apply(&mut settings);
+        let look = &mut settings.look;
+        if let Some(choice) = self.view {
+            (look.view, look.level) = (choice.view, choice.level);
+        }
+        set(&mut look.color, self.color);
+        set(&mut look.alpha, self.alpha);
+        look.voxel_edges |= self.edges;
+        look.shaded &= !self.no_shading;
+        settings.check().map_err(Usage)?;
+        Ok(settings)
+    }
+
+    fn size_px(&self) -> anyhow::Result<[u32; 2]> {
+        match self.size {
+            Some(Size(size_px)) => Ok(size_px),
+            None => Ok(self.common.settings_file()?.1.unwrap_or(SIZE_PX)),
+        }
+    }
+
+    /// Files to write, each with its time in seconds.
+    fn pictures(&self, settings: &Settings) -> Vec<(PathBuf, f64)> {
+        match (self.frames, self.fps) {
+            (Some(Frames { first, last }), Some(fps)) => {
+                (first..=last).map(|frame| (numbered(&self.output, frame), f64::from(frame) / fps)).collect()
+            }
+            _ => vec![(self.output.clone(), settings.motion.time_secs)],
+        }
+    }
+}
+
+fn draw(session: &mut Session, settings: &Settings, size_px: [u32; 2], file: &Path) -> anyhow::Result<()> {
+    if settings.look.view == View::Ghost {
+        session.take_exact(settings)?;
+    }
+    session.run(settings, size_px)?;
+    Ok(export::write_png(file, &session.engine.read_image()?, settings)?)
+}
+
+/// `walk.png` → `walk-0007.png`.
+fn numbered(file: &Path, frame: u32) -> PathBuf {
+    let mut name = file.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{frame:04}"));
+    if let Some(extension) = file.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    file.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_numbered_before_the_extension() {
+        assert_eq!(numbered(Path::new("a/walk.png"), 7), Path::new("a/walk-0007.png"));
+        assert_eq!(numbered(Path::new("walk.v2.png"), 12_345), Path::new("walk.v2-12345.png"));
+    }
+}

@@ -1,0 +1,106 @@
+//! What every subcommand that looks at a scene does first: open, voxelize, take a GPU.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use octolume::engine::Engine;
+use octolume::gpu::Gpu;
+use octolume::prepare::{Prepared, prepare};
+use octolume::progress::Progress;
+use octolume::scene::{Scene, builtin, load};
+use octolume::settings::Settings;
+
+use super::options::Common;
+use super::output;
+
+/// Shown when no scene is named.
+pub const DEFAULT_SCENE: &str = "courtyard";
+
+/// Picture size where nothing is looked at.
+pub const NO_PICTURE: [u32; 2] = [1, 1];
+
+/// An engine that holds a scene's voxels.
+pub struct Session {
+    pub prepared: Arc<Prepared>,
+    pub engine: Engine,
+}
+
+impl Session {
+    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name.
+    pub fn open(scene: &Path, common: &Common, settings: &Settings) -> anyhow::Result<Self> {
+        let mut engine = take_gpu(common)?;
+        let prepared = prepare_only(scene, settings)?;
+        engine.set_prepared(Some(Arc::clone(&prepared)));
+        Ok(Self { prepared, engine })
+    }
+
+    /// Voxelizes for other settings, keeping what still holds.
+    pub fn voxelize_again(&mut self, settings: &Settings) -> anyhow::Result<()> {
+        self.prepared = voxelize(Arc::clone(&self.prepared.scene), settings, Some(&self.prepared))?;
+        self.engine.set_prepared(Some(Arc::clone(&self.prepared)));
+        Ok(())
+    }
+
+    /// Builds and draws what the settings ask for.
+    pub fn run(&mut self, settings: &Settings, image_size_px: [u32; 2]) -> anyhow::Result<()> {
+        self.engine.request(settings, image_size_px)?;
+        Ok(self.engine.run_to_end()?)
+    }
+
+    /// Voxelizes the posed mesh exactly: the truth for ghost and accuracy.
+    pub fn take_exact(&mut self, settings: &Settings) -> anyhow::Result<()> {
+        let prepared = &self.prepared;
+        let exact = output::with_progress("voxelizing the posed mesh", |progress| {
+            prepared.exact(&settings.motion, progress)
+        })?;
+        output::warnings(&exact.warnings);
+        self.engine.set_exact(Some(Arc::new(exact)));
+        Ok(())
+    }
+}
+
+/// Opens and voxelizes a scene, and says what there is to know about it.
+pub fn prepare_only(scene: &Path, settings: &Settings) -> anyhow::Result<Arc<Prepared>> {
+    let prepared = voxelize(Arc::new(open_scene(scene)?), settings, None)?;
+    output::warnings(&prepared.warnings);
+    warn_of_time(&prepared, settings)?;
+    Ok(prepared)
+}
+
+/// Opens a built-in scene by its name, or a file.
+fn open_scene(scene: &Path) -> anyhow::Result<Scene> {
+    let progress = Progress::default();
+    let name = scene.to_str().unwrap_or_default();
+    Ok(match builtin::bytes(name) {
+        Some(bytes) => load::open_bytes(name, bytes, None, &progress)?,
+        None => output::with_progress("opening", |progress| load::open(scene, progress))?,
+    })
+}
+
+fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
+    let gpu = Gpu::headless(common.adapter.as_deref())?;
+    output::warnings(&gpu.warnings());
+    Ok(Engine::new(Arc::new(gpu)))
+}
+
+fn voxelize(scene: Arc<Scene>, settings: &Settings, reuse: Option<&Prepared>) -> anyhow::Result<Arc<Prepared>> {
+    let prepared = output::with_progress("voxelizing", |progress| {
+        prepare(scene, &settings.discretization, reuse, progress)
+    });
+    Ok(Arc::new(prepared?))
+}
+
+/// A clip holds its last pose after its end: said, because it looks like a stopped animation.
+fn warn_of_time(prepared: &Prepared, settings: &Settings) -> anyhow::Result<()> {
+    let time_secs = settings.motion.time_secs;
+    let scene = &prepared.scene;
+    match prepared.clip_index(&settings.motion)?.map(|clip| &scene.clips[clip]) {
+        Some(clip) if time_secs > clip.duration_secs => output::message(&format!(
+            "warning: clip \"{}\" ends at {} s; its last pose is shown",
+            clip.name, clip.duration_secs
+        )),
+        None if time_secs > 0.0 => output::message("warning: no clip is played, so the time changes nothing"),
+        _ => {}
+    }
+    Ok(())
+}

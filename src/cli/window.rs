@@ -1,0 +1,18 @@
+//! `octolume [SCENE]`: the inspector's window.
+
+use std::path::Path;
+
+use super::options::{Common, Moment};
+
+#[cfg(feature = "gui")]
+pub fn run(scene: &Path, common: &Common, moment: &Moment) -> anyhow::Result<()> {
+    let mut settings = common.settings()?;
+    moment.apply(&mut settings);
+    settings.check().map_err(super::Usage)?;
+    octolume::app::run(scene, settings, common.adapter.as_deref())
+}
+
+#[cfg(not(feature = "gui"))]
+pub fn run(_scene: &Path, _common: &Common, _moment: &Moment) -> anyhow::Result<()> {
+    Err(super::Usage("this build has no window; build it with the feature \"gui\", or use a subcommand".to_owned()).into())
+}

@@ -1,0 +1,49 @@
+//! `courtyard`: a cloistered court of about 14 x 14 x 7 m with things that stand, turn and walk.
+//!
+//! Glossy paving with polished inlays, a red and a blue wall that bleed colour, instanced
+//! columns, cloth between them, a fountain with an armillary sphere (LINEAR), a vane on its top
+//! (STEP), a swinging lantern that glows (CUBICSPLINE), mirrored and unevenly scaled ornaments,
+//! and a skinned traveller. Clips: `walk` (all of that, 10 s) and `wave` (the traveller, 4 s).
+
+mod building;
+mod fountain;
+mod furnishing;
+mod palette;
+mod traveller;
+mod walls;
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::exact::at;
+use super::glb::{ClipWriter, GlbWriter};
+use crate::scene::Trs;
+use palette::Palette;
+
+/// Length of the clip `walk`.
+const WALK_SECS: f64 = 10.0;
+
+pub fn make() -> Vec<u8> {
+    let mut glb = GlbWriter::default();
+    let mut walk = ClipWriter::new("walk");
+    let palette = Palette::new(&mut glb);
+    building::add(&mut glb, &palette);
+    walls::add(&mut glb, &palette);
+    furnishing::add(&mut glb, &palette, &mut walk);
+    fountain::add(&mut glb, &palette, &mut walk);
+    let wave = traveller::add(&mut glb, &palette, &mut walk);
+    glb.clip(walk);
+    glb.clip(wave);
+
+    let sun = facing(DVec3::new(6.5, 7.8, 2.6), DVec3::ZERO);
+    glb.sun("sun", sun, [1.0, 0.94, 0.84], 8.0);
+    glb.camera("view", facing(DVec3::new(1.5, 2.55, 6.8), DVec3::new(0.2, 1.85, -1.0)), 0.92);
+    glb.finish("courtyard")
+}
+
+/// A place at `eye` whose −Z looks at `target`, as lights and cameras do.
+fn facing(eye: DVec3, target: DVec3) -> Trs {
+    let back = (eye - target).normalize();
+    let right = DVec3::Y.cross(back).normalize();
+    let rotation = DQuat::from_mat3(&DMat3::from_cols(right, back.cross(right), back)).normalize();
+    Trs { rotation, ..at(eye.x, eye.y, eye.z) }
+}

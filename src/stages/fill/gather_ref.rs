@@ -1,0 +1,93 @@
+//! Reference of `gather.wgsl`: what falls into each leaf, as exact 128-bit sums.
+//!
+//! In: world voxels (q, biased normal, 8-bit albedo) and a filter. Out, a leaf with any weight w:
+//! occupancy min(Σw, 2^3k), albedo Σw·a / Σw and normal Σw·n / Σw, both rounded half up, once.
+
+use std::collections::BTreeMap;
+
+use crate::data::octree::FULL_WEIGHT;
+use crate::settings::Filter;
+use crate::stages::build::mark_ref::{fragments, inside};
+
+/// What gathering needs of a voxel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fragment {
+    pub q: [i64; 3],
+    /// 0 … 2·NORMAL_MAX a component.
+    pub normal: [u32; 3],
+    /// 0 … 255 a component.
+    pub albedo: [u32; 3],
+}
+
+/// Unrounded, unclamped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LeafSum {
+    pub weight: u128,
+    pub albedo: [u128; 3],
+    pub normal: [u128; 3],
+}
+
+/// Resolved: what is stored of an occupied leaf.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Leaf {
+    pub occupancy: u32,
+    pub albedo: [u32; 3],
+    pub normal: [u32; 3],
+}
+
+pub fn sums(voxels: impl IntoIterator<Item = Fragment>, depth: u32, filter: Filter) -> BTreeMap<[u32; 3], LeafSum> {
+    let mut sums = BTreeMap::<_, LeafSum>::new();
+    for voxel in voxels {
+        for (cell, weight) in fragments(voxel.q, filter) {
+            if let Some(cell) = inside(cell, depth) {
+                sums.entry(cell).or_default().add(&voxel, u128::from(weight));
+            }
+        }
+    }
+    sums
+}
+
+impl LeafSum {
+    pub fn add(&mut self, voxel: &Fragment, weight: u128) {
+        self.weight += weight;
+        for axis in 0..3 {
+            self.albedo[axis] += weight * u128::from(voxel.albedo[axis]);
+            self.normal[axis] += weight * u128::from(voxel.normal[axis]);
+        }
+    }
+
+    /// Quantisation: division and clamping. Needs some weight.
+    pub fn resolve(&self) -> Leaf {
+        let mean = |sum: u128| ((2 * sum + self.weight) / (2 * self.weight)) as u32;
+        Leaf {
+            occupancy: self.weight.min(u128::from(FULL_WEIGHT)) as u32,
+            albedo: self.albedo.map(mean),
+            normal: self.normal.map(mean),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stages::transform::rigid_ref::ONE;
+
+    #[test]
+    fn a_quarter_and_three_quarters_mix_as_such() {
+        let dark = Fragment { q: [ONE / 4, 0, 0], normal: [511, 511, 1022], albedo: [0, 0, 200] };
+        let light = Fragment { q: [3 * ONE / 4, 0, 0], normal: [511, 511, 0], albedo: [100, 2, 0] };
+        let sums = sums([dark, light], 6, Filter::Split);
+        let leaf = sums[&[0, 0, 0]].resolve();
+        assert_eq!(leaf.occupancy, FULL_WEIGHT);
+        // Normal: (3·1022 + 0) / 4 = 766.5, which rounds up; albedo: 2/4 rounds up too.
+        assert_eq!((leaf.albedo, leaf.normal), ([25, 1, 150], [511, 511, 767]));
+    }
+
+    #[test]
+    fn opposed_normals_have_zero_length() {
+        let up = Fragment { q: [0; 3], normal: [511, 511, 1022], albedo: [9; 3] };
+        let down = Fragment { normal: [511, 511, 0], ..up };
+        let leaf = sums([up, down], 6, Filter::Nearest)[&[0, 0, 0]].resolve();
+        assert_eq!((leaf.normal, leaf.occupancy), ([511; 3], FULL_WEIGHT));
+    }
+}

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Every check and test, fast ones first: format, lints with and without the window, documentation,
+# tests, a real window on a virtual display, a release build and one picture drawn by it.
+# Needs what `setup.sh --install-only` installs; no display, no input.
+set -euo pipefail
+cd "$(dirname "$0")"
+command -v cargo >/dev/null || . "$HOME/.cargo/env"
+
+step() {
+    local start=$SECONDS
+    echo "== $*" >&2
+    "$@"
+    echo "== done in $((SECONDS - start)) s" >&2
+}
+
+documentation() { RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --document-private-items; }
+
+step cargo fmt --check
+step cargo clippy --all-targets -- -D warnings
+step cargo clippy --all-targets --no-default-features -- -D warnings
+step documentation
+step cargo test
+step cargo build --release
+step tests/window/drive.sh target/release/octolume
+pictures=$(mktemp -d)
+trap 'rm -rf "$pictures"' EXIT
+step target/release/octolume render courtyard -o "$pictures/courtyard.png" --size 640x360
+echo "All checks passed." >&2

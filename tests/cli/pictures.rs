@@ -1,0 +1,90 @@
+//! What `render` draws, and that a picture is enough to draw it again.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::Path;
+
+use image::RgbaImage;
+
+use crate::scenes::Scenes;
+use crate::succeed;
+
+fn render(scene: &Path, file: &Path, options: &[&str]) -> Vec<u8> {
+    let start = [OsStr::new("render"), scene.as_os_str(), OsStr::new("-o"), file.as_os_str()];
+    let output = succeed(start.into_iter().chain(options.iter().map(OsStr::new)));
+    assert!(output.is_empty(), "standard output is for results: {output}");
+    fs::read(file).expect("a picture")
+}
+
+fn picture(bytes: &[u8]) -> RgbaImage {
+    image::load_from_memory(bytes).expect("a picture").to_rgba8()
+}
+
+/// Pixels unlike the corner's, which is background.
+fn drawn_pixels(picture: &RgbaImage) -> usize {
+    picture.pixels().filter(|pixel| *pixel != picture.get_pixel(0, 0)).count()
+}
+
+#[test]
+fn every_view_draws_the_scene() {
+    let scenes = Scenes::new();
+    let scene = scenes.bent_box();
+    for view in ["voxels", "mesh", "ghost", "level:4"] {
+        let bytes = render(&scene, &scenes.path("out.png"), &["--view", view, "--size", "80x60", "--time", "1"]);
+        let picture = picture(&bytes);
+        assert_eq!(picture.dimensions(), (80, 60));
+        assert!(drawn_pixels(&picture) > 100, "{view}: {} pixels", drawn_pixels(&picture));
+    }
+}
+
+#[test]
+fn colours_time_and_camera_change_the_picture() {
+    let scenes = Scenes::new();
+    let scene = scenes.turning_box();
+    let looks: [&[&str]; 10] = [
+        &[],
+        &["--color", "normal"],
+        &["--color", "occupancy"],
+        &["--color", "object"],
+        &["--color", "level"],
+        &["--time", "1"],
+        &["--turn", "0,20,0"],
+        &["--eye", "9,2,1", "--target", "1,1.5,0.5", "--fov", "30"],
+        &["--edges"],
+        &["--no-shading"],
+    ];
+    let draw = |look: &&[&str]| {
+        let options: Vec<&str> = look.iter().copied().chain(["--size", "64x48"]).collect();
+        picture(&render(&scene, &scenes.path("out.png"), &options)).into_raw()
+    };
+    let pictures: Vec<Vec<u8>> = looks.iter().map(draw).collect();
+    for (index, look) in looks.iter().enumerate().skip(1) {
+        assert_ne!(pictures[index], pictures[0], "{look:?}");
+    }
+}
+
+#[test]
+fn a_picture_draws_itself_again() {
+    let scenes = Scenes::new();
+    let scene = scenes.turning_box();
+    let first = scenes.path("first.png");
+    let look = ["--color", "normal", "--filter", "nearest", "--time", "0.4", "--size", "72x50", "--alpha", "length"];
+    let bytes = render(&scene, &first, &look);
+    let again = render(&scene, &scenes.path("again.png"), &["--settings", first.to_str().expect("UTF-8")]);
+    assert!(bytes == again, "the settings in a picture do not draw it again");
+}
+
+#[test]
+fn frames_are_pictures_of_moments() {
+    let scenes = Scenes::new();
+    let scene = scenes.turning_box();
+    let small = ["--size", "48x32"];
+    let start = [OsStr::new("render"), scene.as_os_str(), OsStr::new("-o")];
+    let walk = scenes.path("walk.png");
+    let options = ["--frames", "3:5", "--fps", "10", "--size", "48x32"].map(OsStr::new);
+    succeed(start.into_iter().chain([walk.as_os_str()]).chain(options));
+    assert!(!walk.exists() && !scenes.path("walk-0002.png").exists() && !scenes.path("walk-0006.png").exists());
+    let fourth = fs::read(scenes.path("walk-0004.png")).expect("a frame");
+    let moment = render(&scene, &scenes.path("moment.png"), &[&small[..], &["--time", "0.4"]].concat());
+    assert!(fourth == moment, "frame 4 at 10 frames a second is the moment 0.4 s");
+}

@@ -1,0 +1,139 @@
+//! What `info`, `plan`, `bench` and `accuracy` print, field by field.
+
+use std::ffi::OsStr;
+
+use serde_json::{Value, json};
+
+use crate::scenes::{BOX_TRIANGLES, Scenes, TURN_SECS};
+use crate::{fields, json, succeed};
+
+fn report(command: &str, scene: &OsStr, options: &[&str]) -> Value {
+    let start = [OsStr::new(command), scene, OsStr::new("--json")];
+    json(start.into_iter().chain(options.iter().map(OsStr::new)))
+}
+
+#[test]
+fn info_counts_what_is_there() {
+    let scenes = Scenes::new();
+    let info = report("info", scenes.turning_box().as_os_str(), &["--span", "0.125"]);
+    assert_eq!(info["name"], "box");
+    assert_eq!(info["triangles"], BOX_TRIANGLES);
+    assert_eq!((&info["objects"], &info["skins"], &info["joints"]), (&json!(1), &json!(0), &json!(0)));
+    assert_eq!(info["clips"], json!([{ "name": "Turn", "seconds": TURN_SECS }]));
+    assert_eq!((&info["extensions"], &info["warnings"]), (&json!([]), &json!([])));
+    assert_eq!((&info["grid"], &info["span"]), (&json!(64), &json!(0.125)));
+    let levels = info["levels"].as_array().expect("a list");
+    assert_eq!(levels.len(), 7);
+    for (level, report) in levels.iter().enumerate() {
+        assert_eq!(fields(report), ["bytes", "dummies", "level", "nodes", "occupied"]);
+        assert_eq!(report["level"], level);
+    }
+    assert_eq!((&levels[0]["nodes"], &levels[0]["occupied"]), (&json!(1), &json!(1)));
+}
+
+#[test]
+fn info_of_a_skin_counts_its_joints() {
+    let scenes = Scenes::new();
+    let info = report("info", scenes.bent_box().as_os_str(), &[]);
+    assert_eq!((&info["skins"], &info["joints"], &info["triangles"]), (&json!(1), &json!(2), &json!(BOX_TRIANGLES)));
+}
+
+#[test]
+fn info_reads_well_without_json() {
+    let scenes = Scenes::new();
+    let text = succeed([OsStr::new("info"), scenes.turning_box().as_os_str()]);
+    assert!(text.contains("12 triangles in 1 object") && text.contains("clip \"Turn\", 2.000 s"), "{text}");
+}
+
+/// State of every pass.
+fn states(plan: &Value) -> Vec<(String, String)> {
+    let text = |value: &Value| value.as_str().expect("text").to_owned();
+    let row = |row: &Value| {
+        assert_eq!(fields(row), ["pass", "reason", "state"]);
+        assert!(!text(&row["reason"]).is_empty());
+        (text(&row["pass"]), text(&row["state"]))
+    };
+    plan.as_array().expect("a list").iter().map(row).collect()
+}
+
+fn running(plan: &Value) -> Vec<String> {
+    states(plan).into_iter().filter(|(_, state)| state == "run").map(|(pass, _)| pass).collect()
+}
+
+#[test]
+fn the_first_frame_of_a_rigid_scene_needs_no_skin() {
+    let scenes = Scenes::new();
+    let plan = report("plan", scenes.turning_box().as_os_str(), &[]);
+    let states = states(&plan);
+    assert!(states.contains(&("transform-skinned".to_owned(), "skip".to_owned())));
+    assert!(states.contains(&("transform-rigid".to_owned(), "run".to_owned())));
+    assert!(states.contains(&("gather-nearest".to_owned(), "skip".to_owned())));
+    assert!(states.contains(&("march-voxels".to_owned(), "run".to_owned())));
+}
+
+#[test]
+fn a_second_frame_does_only_what_changed() {
+    let scenes = Scenes::new();
+    let scene = scenes.turning_box();
+    let after = |change| running(&report("plan", scene.as_os_str(), &["--after", change]));
+    assert_eq!(after("still"), [""; 0]);
+    assert_eq!(after("camera"), ["march-voxels"]);
+    let moved = after("time");
+    assert!(moved.contains(&"transform-rigid".to_owned()) && !moved.contains(&"upload-caches".to_owned()));
+    let filtered = after("filter");
+    assert!(filtered.contains(&"gather-nearest".to_owned()) && !filtered.contains(&"transform-rigid".to_owned()));
+}
+
+#[test]
+fn plan_reads_well_without_json() {
+    let scenes = Scenes::new();
+    let text = succeed([OsStr::new("plan"), scenes.bent_box().as_os_str()]);
+    assert!(text.contains("| transform-rigid") && text.contains("no rigid object in the grid"), "{text}");
+}
+
+#[test]
+fn bench_measures_every_kernel_beside_a_copy() {
+    let scenes = Scenes::new();
+    let bench = report("bench", scenes.turning_box().as_os_str(), &["--warmup", "1", "--runs", "3"]);
+    let cost = ["bytes", "floor_ms", "gb_per_s", "kernel", "median_ms", "p5_ms", "p95_ms", "ratio"];
+    let kernels = bench["kernels"].as_array().expect("a list");
+    for kernel in kernels.iter().chain([&bench["copy"], &bench["rebuild"]]) {
+        assert_eq!(fields(kernel), cost);
+        let ms = |name| kernel[name].as_f64().expect("a number");
+        assert!(ms("p5_ms") <= ms("median_ms") && ms("median_ms") <= ms("p95_ms"), "{kernel}");
+    }
+    let names: Vec<&str> = kernels.iter().filter_map(|kernel| kernel["kernel"].as_str()).collect();
+    for name in ["transform/rigid", "build/mark", "build/emit", "fill/gather", "average/average", "view/march"] {
+        assert!(names.contains(&name), "{name} is not in {names:?}");
+    }
+    assert_eq!((&bench["runs"], &bench["scene"]), (&json!(3), &json!("box")));
+    for text in ["adapter", "driver", "date", "octolume"] {
+        assert!(bench[text].as_str().is_some_and(|text| !text.is_empty()), "{text}");
+    }
+}
+
+#[test]
+fn accuracy_compares_both_filters_in_every_pose() {
+    let scenes = Scenes::new();
+    let folder = scenes.path("accuracy");
+    let folder = folder.to_str().expect("UTF-8");
+    let scene = scenes.turning_box();
+    let rows = report("accuracy", scene.as_os_str(), &["--times", "0,0.7", "--grids", "64,128", "-o", folder]);
+    let rows = rows.as_array().expect("a list");
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        assert_eq!((&row["scene"], &row["clip"]), (&json!("box"), &json!("Turn")));
+        for filter in ["nearest", "split"] {
+            for number in ["kernel_ms", "voxels", "leaves", "nodes", "bytes", "holes", "spill"] {
+                assert!(row[filter][number].is_number(), "{filter} {number}: {row}");
+            }
+        }
+        // Split reaches every cell that nearest reaches.
+        assert!(row["split"]["holes"].as_u64() <= row["nearest"]["holes"].as_u64(), "{row}");
+    }
+    assert_eq!((&rows[0]["grid"], &rows[3]["grid"]), (&json!(64), &json!(128)));
+    let files = ["accuracy.csv", "accuracy.md", "box-64-0-nearest.png", "box-128-1-split.png"];
+    for file in files {
+        assert!(scenes.path("accuracy").join(file).is_file(), "{file}");
+    }
+}
