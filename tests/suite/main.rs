@@ -12,7 +12,6 @@ macro_rules! assert_near {
 }
 
 mod animation;
-mod builtin;
 mod camera;
 mod device;
 mod document;
@@ -25,24 +24,14 @@ mod parts;
 mod random;
 mod scenes;
 mod shaders;
-mod shaders;
 mod plain_octree;
 mod prepared;
-mod random;
 mod rays;
-mod scenes;
-mod shaders;
 mod skinning;
 mod stage_checks;
 mod stage_rig;
 mod transform;
 mod view;
-mod view;
-mod octree;
-mod random;
-mod shaders;
-mod stage_checks;
-mod stage_rig;
 mod voxelization;
 mod voxelization_payload;
 mod voxelization_surface;
