@@ -25,6 +25,8 @@ pub enum Command {
     Speed(f64),
     /// The person moves the camera: coarse until it rests.
     Camera(OrbitCamera),
+    /// A camera of the file, as it is posed now.
+    SceneCamera(usize),
     /// Back to the camera that frames everything.
     FrameAll,
     SaveScreenshot,
@@ -44,6 +46,7 @@ impl App {
                 self.settings.look.camera = Some(camera);
                 self.moved_at_secs = Some(clock_secs);
             }
+            Command::SceneCamera(camera) => self.look_through(camera),
             Command::FrameAll => self.settings.look.camera = None,
             Command::Move(motion) => {
                 self.settings.motion = motion;

@@ -91,8 +91,9 @@ impl App {
             panels::filter::ui(ui, settings, self.stage.engine.accuracy().as_ref())
         }));
         commands.extend(section(ui, "View", true, |ui| {
+            let cameras = self.scene.as_ref().map_or(&[][..], |ready| &ready.prepared.scene.cameras);
             let depth = grid.map_or(settings.discretization.depth(), |grid| grid.depth);
-            let commands = panels::view::ui(ui, &settings.look, depth);
+            let commands = panels::view::ui(ui, &settings.look, depth, cameras);
             panels::control(ui, "Save to", "Folder that screenshots are written to.", |ui| {
                 ui.add(TextEdit::singleline(&mut self.screenshots.folder).desired_width(f32::INFINITY))
             });

@@ -47,6 +47,7 @@ use self::viewport::Viewport;
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
 use crate::scene::Clip;
+use crate::scene::camera::camera_from_scene_camera;
 use crate::settings::{MotionSettings, Settings};
 
 /// How often a progress bar is redrawn.
@@ -221,6 +222,19 @@ impl App {
             self.desk.remember(source);
         }
         self.stage.set_prepared(prepared);
+        let opens_with_its_camera = ready.is_new && self.settings.look.camera.is_none();
         self.scene = Some(ready);
+        if opens_with_its_camera {
+            self.look_through(0);
+        }
+    }
+
+    /// Takes a camera of the file, if it has this one.
+    fn look_through(&mut self, camera: usize) {
+        let Some(prepared) = self.prepared() else { return };
+        let Ok(pose) = prepared.pose(&self.settings.motion) else { return };
+        if let Some(camera) = camera_from_scene_camera(&prepared.scene, camera, &pose) {
+            self.settings.look.camera = Some(camera);
+        }
     }
 }

@@ -31,9 +31,10 @@ fn open_ui(ui: &mut Ui, path: &mut String, recent: &[PathBuf]) -> Vec<Command> {
         commands.extend(recent_ui(ui, recent));
     });
     ui.horizontal(|ui| {
+        let name = ui.label(RichText::new("Path").color(theme::WEAK));
         let width = ui.available_width() - 56.0;
-        let field = TextEdit::singleline(path).hint_text("Path of a .gltf or .glb file").desired_width(width);
-        let entered = ui.add(field).on_hover_text("Path of a scene; Enter opens it.");
+        let field = TextEdit::singleline(path).hint_text("a .gltf or .glb file").desired_width(width);
+        let entered = ui.add(field).labelled_by(name.id).on_hover_text("Path of a scene; Enter opens it.");
         let enter = entered.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let open = ui.add_enabled(!path.trim().is_empty(), egui::Button::new("Open"));
         if open.on_hover_text("Opens the file at this path.").clicked() || enter && !path.trim().is_empty() {

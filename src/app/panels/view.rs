@@ -4,11 +4,13 @@ use egui::{Slider, Ui};
 
 use super::{choice, control};
 use crate::app::commands::Command;
+use crate::scene::SceneCamera;
 use crate::settings::{AlphaRule, ColorBy, Look, View};
 
-/// `depth`: the octree's, so that the level slider ends at its leaves.
-pub fn ui(ui: &mut Ui, current: &Look, depth: u32) -> Vec<Command> {
+/// `depth`: the octree's, so that the level slider ends at its leaves. `cameras`: those of the file.
+pub fn ui(ui: &mut Ui, current: &Look, depth: u32, cameras: &[SceneCamera]) -> Vec<Command> {
     let mut look = *current;
+    let mut commands = Vec::new();
     let views = [
         (View::Voxels, "Voxels", "The octree, ray-marched with occupancy as alpha."),
         (View::Mesh, "Mesh", "The posed triangles from the same camera; builds no octree."),
@@ -36,7 +38,31 @@ pub fn ui(ui: &mut Ui, current: &Look, depth: u32) -> Vec<Command> {
             ui.checkbox(&mut look.voxel_edges, "Voxel edges").on_hover_text("Draws the edges of every voxel shown.")
         });
     });
-    if look == *current { Vec::new() } else { vec![Command::Look(look)] }
+    commands.extend(camera_ui(ui, current, cameras));
+    if look != *current {
+        commands.push(Command::Look(look));
+    }
+    commands
+}
+
+fn camera_ui(ui: &mut Ui, look: &Look, cameras: &[SceneCamera]) -> Option<Command> {
+    let mut command = None;
+    let shown = if look.camera.is_some() { "Free" } else { "All framed" };
+    control(ui, "Camera", "Where the picture is taken from; drag in the view to move it.", |ui| {
+        let combo = egui::ComboBox::from_id_salt("camera").width(110.0).selected_text(shown);
+        let response = combo.show_ui(ui, |ui| {
+            if ui.selectable_label(look.camera.is_none(), "Frame all").on_hover_text("Key F").clicked() {
+                command = Some(Command::FrameAll);
+            }
+            for (index, camera) in cameras.iter().enumerate() {
+                if ui.selectable_label(false, format!("From \"{}\"", camera.name)).clicked() {
+                    command = Some(Command::SceneCamera(index));
+                }
+            }
+        });
+        response.response
+    });
+    command
 }
 
 fn level_ui(ui: &mut Ui, look: &mut Look, depth: u32) {
