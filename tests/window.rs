@@ -181,6 +181,7 @@ fn the_timeline_moves_the_scene_and_scrubbing_returns_to_the_same_picture() {
     window.set("Time", 0.0);
     assert_eq!(difference(&start, &window.view()), 0, "time 0 looks the same again");
     window.set("Time", 0.4);
+   
     assert_eq!(difference(&stepped, &window.view()), 0, "scrubbed to the time stepped to");
     window.choose("Clip", "Rest pose");
     assert_eq!(window.app().settings().motion.clip.as_deref(), Some(""));
@@ -257,6 +258,7 @@ fn a_file_that_cannot_be_opened_leaves_the_scene_open() {
     let before = window.view();
     window.type_into("Path", "no/such/file.glb");
     window.click("Open");
+    ["Timings", "Octree", "Frame plan"].into_iter().for_each(|folded| window.click(folded));
     window.click("Log");
     assert!(window.0.query_all_by_label_contains("no/such/file.glb: cannot be read").next().is_some());
     assert_eq!(difference(&before, &window.view()), 0);

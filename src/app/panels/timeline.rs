@@ -99,7 +99,8 @@ fn turn_and_scrub_ui(
             let mut time = motion.time_secs.min(duration);
             ui.spacing_mut().slider_width = (ui.available_width() - 112.0).max(60.0);
             let slider = Slider::new(&mut time, 0.0..=duration.max(f64::MIN_POSITIVE))
-                .fixed_decimals(3)
+                // Not by decimals, which would round the time itself.
+                .custom_formatter(|time, _| format!("{time:.3}"))
                 .suffix(format!(" / {duration:.2} s"))
                 .smart_aim(false);
             let response =
