@@ -25,19 +25,16 @@ pub struct Mirror {
     pub fields: &'static [(&'static str, usize)],
 }
 
-/// `field` has the same name in Rust; `field = offset` is an element of a Rust array.
 macro_rules! mirror {
-    ($rust:ty, $file:literal, $wgsl:literal, $($field:ident $(= $offset:expr)?),+ $(,)?) => {
+    ($rust:ty, $file:literal, $wgsl:literal, $($field:ident),+ $(,)?) => {
         Mirror {
             rust_name: stringify!($rust),
             file: $file,
             wgsl_name: $wgsl,
             bytes: size_of::<$rust>(),
-            fields: &[$((stringify!($field), mirror!(@offset $rust, $field $(, $offset)?))),+],
+            fields: &[$((stringify!($field), offset_of!($rust, $field))),+],
         }
     };
-    (@offset $rust:ty, $field:ident) => { offset_of!($rust, $field) };
-    (@offset $rust:ty, $field:ident, $offset:expr) => { $offset };
 }
 
 pub const MIRRORS: &[Mirror] = &[

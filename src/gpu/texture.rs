@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use image::RgbaImage;
-
 use super::buffer::{BufferUse, Registry};
 use super::{Gpu, GpuError, lock};
 
@@ -57,15 +55,10 @@ impl Gpu {
         Ok(GpuTexture(Arc::new(Inner { raw, view, serial, registry: Arc::clone(&self.registry) })))
     }
 
-    /// The texels of a picture of 8-bit RGBA. Blocks until submitted work is done.
-    pub fn read_texture(&self, texture: &wgpu::Texture) -> Result<RgbaImage, GpuError> {
-        let texels = self.read_texels(texture)?;
-        let image = RgbaImage::from_raw(texture.width(), texture.height(), texels);
-        image.ok_or_else(|| self.refused("reading a picture", &format!("{:?} is no 8-bit RGBA", texture.format())))
-    }
-
-    /// All bytes of the finest level, rows from the top without padding. Blocks likewise.
-    pub fn read_texels(&self, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuError> {
+    /// All bytes of the finest level, rows from the top without padding. Blocks until submitted work
+    /// is done.
+    pub fn read_texture(&self, texture: &GpuTexture) -> Result<Vec<u8>, GpuError> {
+        let texture = texture.raw();
         let texel_bytes = texture.format().block_copy_size(None).unwrap_or(4);
         let row_bytes = texture.width() * texel_bytes;
         let pitch = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);

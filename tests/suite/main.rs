@@ -1,5 +1,7 @@
 //! The tests of the core: one module an area, one binary so that it links once.
 
+mod accumulation;
+mod averaging;
 mod builtin;
 /// Vectors and matrices, entry by entry.
 macro_rules! assert_near {
@@ -15,18 +17,16 @@ mod device;
 mod document;
 mod gpu;
 mod loading;
+mod mutations;
 mod motion;
 mod octree;
 mod parts;
 mod random;
 mod scenes;
 mod shaders;
-mod shaders;
 mod plain_octree;
-mod random;
+mod prepared;
 mod rays;
-mod scenes;
-mod shaders;
 mod skinning;
 mod stage_checks;
 mod stage_rig;
@@ -34,3 +34,4 @@ mod transform;
 mod view;
 mod voxelization;
 mod voxelization_payload;
+mod voxelization_surface;

@@ -32,14 +32,14 @@ impl Picture {
         self.size_px().into_iter().map(|side| u64::from(side.next_multiple_of(8))).product()
     }
 
-    /// Blocks until submitted work is done.
-    pub fn read(&self, gpu: &Gpu) -> Result<image::RgbaImage, GpuError> {
-        gpu.read_texture(self.color.raw())
+    /// RGBA bytes, rows from the top. Blocks until submitted work is done.
+    pub fn read_rgba8(&self, gpu: &Gpu) -> Result<Vec<u8>, GpuError> {
+        gpu.read_texture(&self.color)
     }
 
     /// Distances in cells, rows from the top. Blocks likewise.
     pub fn read_distances(&self, gpu: &Gpu) -> Result<Vec<f32>, GpuError> {
-        gpu.read_texels(self.distance.raw()).map(|bytes| bytemuck::pod_collect_to_vec(&bytes))
+        gpu.read_texture(&self.distance).map(|bytes| bytemuck::pod_collect_to_vec(&bytes))
     }
 }
 
