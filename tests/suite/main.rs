@@ -35,3 +35,4 @@ mod view;
 mod voxelization;
 mod voxelization_payload;
 mod voxelization_surface;
+mod plan;
