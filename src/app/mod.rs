@@ -1,6 +1,10 @@
 //! The window.
 
 /// Opens the window on a scene.
-pub fn run(_scene: &std::path::Path, _settings: crate::settings::Settings, _adapter: Option<&str>) -> anyhow::Result<()> {
+pub fn run(
+    _scene: &std::path::Path,
+    _settings: crate::settings::Settings,
+    _adapter: Option<&str>,
+) -> anyhow::Result<()> {
     anyhow::bail!("no window")
 }

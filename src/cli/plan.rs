@@ -61,9 +61,10 @@ impl Plan {
         if self.json {
             return output::json(plan);
         }
-        let rows = plan.rows.iter().map(|row| {
-            vec![output::name_of(&row.pass), output::name_of(&row.state), row.reason.to_owned()]
-        });
+        let rows = plan
+            .rows
+            .iter()
+            .map(|row| vec![output::name_of(&row.pass), output::name_of(&row.state), row.reason.to_owned()]);
         output::result(&output::table(&["pass", "state", "reason"], rows))
     }
 }

@@ -50,9 +50,8 @@ impl Session {
     /// Voxelizes the posed mesh exactly: the truth for ghost and accuracy.
     pub fn take_exact(&mut self, settings: &Settings) -> anyhow::Result<()> {
         let prepared = &self.prepared;
-        let exact = output::with_progress("voxelizing the posed mesh", |progress| {
-            prepared.exact(&settings.motion, progress)
-        })?;
+        let exact =
+            output::with_progress("voxelizing the posed mesh", |progress| prepared.exact(&settings.motion, progress))?;
         output::warnings(&exact.warnings);
         self.engine.set_exact(Some(Arc::new(exact)));
         Ok(())
@@ -84,9 +83,8 @@ fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
 }
 
 fn voxelize(scene: Arc<Scene>, settings: &Settings, reuse: Option<&Prepared>) -> anyhow::Result<Arc<Prepared>> {
-    let prepared = output::with_progress("voxelizing", |progress| {
-        prepare(scene, &settings.discretization, reuse, progress)
-    });
+    let prepared =
+        output::with_progress("voxelizing", |progress| prepare(scene, &settings.discretization, reuse, progress));
     Ok(Arc::new(prepared?))
 }
 

@@ -14,5 +14,6 @@ pub fn run(scene: &Path, common: &Common, moment: &Moment) -> anyhow::Result<()>
 
 #[cfg(not(feature = "gui"))]
 pub fn run(_scene: &Path, _common: &Common, _moment: &Moment) -> anyhow::Result<()> {
-    Err(super::Usage("this build has no window; build it with the feature \"gui\", or use a subcommand".to_owned()).into())
+    Err(super::Usage("this build has no window; build it with the feature \"gui\", or use a subcommand".to_owned())
+        .into())
 }

@@ -54,7 +54,8 @@ fn arrays_are_sorted_complete_and_in_range() {
         assert_eq!((arrays.occupancy.len(), arrays.corner.len()), (count, 3));
         assert_eq!(arrays.span.into_scalar(), 0.125);
         assert!(arrays.cells.iter().all(|cell| (0..64).contains(cell)));
-        let keys = arrays.cells.rows().into_iter().map(|cell| morton_key([cell[0], cell[1], cell[2]].map(|c| c as u32)));
+        let keys =
+            arrays.cells.rows().into_iter().map(|cell| morton_key([cell[0], cell[1], cell[2]].map(|c| c as u32)));
         assert!(keys.collect::<Vec<_>>().is_sorted_by(|a, b| a < b), "not in Morton order");
         assert!(arrays.occupancy.iter().all(|occupancy| *occupancy > 0.0 && *occupancy <= 1.0));
         assert!(arrays.albedo.iter().all(|channel| (0.0..=1.0).contains(channel)));

@@ -101,8 +101,7 @@ impl Writer {
     }
 
     fn write(mut self, file: &Path, attributes: Value, nodes: Value, skins: Option<Value>, clips: Value) -> PathBuf {
-        let faces: [[u16; 4]; 6] =
-            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces: [[u16; 4]; 6] = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let indices: Vec<u16> = faces.iter().flat_map(|&[a, b, c, d]| [a, b, c, a, c, d]).collect();
         let indices = self.accessor(bytemuck::cast_slice(&indices), UNSIGNED_SHORT, "SCALAR", indices.len(), None);
         let bin = file.with_extension("bin");

@@ -1,6 +1,5 @@
 //! The tests of the core: one module an area, one binary so that it links once.
 
-mod builtin;
 /// Vectors and matrices, entry by entry.
 macro_rules! assert_near {
     ($value:expr, $expected:expr, $tolerance:expr $(,)?) => {
@@ -10,23 +9,24 @@ macro_rules! assert_near {
 }
 
 mod animation;
+mod builtin;
 mod camera;
 mod device;
 mod document;
 mod gpu;
 mod loading;
+mod mesh_view;
 mod motion;
+mod octree;
 mod parts;
 mod plain_octree;
+mod random;
 mod rays;
 mod scenes;
 mod shaders;
 mod skinning;
-mod view;
-mod octree;
-mod random;
-mod shaders;
 mod stage_checks;
 mod stage_rig;
+mod view;
 mod voxelization;
 mod voxelization_payload;
