@@ -37,6 +37,8 @@ pub struct Changes {
     pub other_octree: bool,
     /// The exact posed voxels differ from those last compared.
     pub exact: bool,
+    /// The exact posed voxels differ from those whose masks are made.
+    pub exact_masks: bool,
     /// There are exact voxels of this pose to compare with.
     pub exact_known: bool,
     /// Camera, picture size or anything of the look.
@@ -64,6 +66,8 @@ pub enum Pass {
     NumberObjects,
     MarchVoxels,
     DrawMesh,
+    /// The masks above the exact leaves, by which rays skip empty space.
+    ReduceExact,
     MarchGhost,
     /// The octree of the filter that is not shown, for the accuracy panel.
     BuildOther,
@@ -72,7 +76,7 @@ pub enum Pass {
 
 impl Pass {
     /// Every pass, in frame order.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::UploadCaches,
         Self::ObjectIo,
         Self::TransformRigid,
@@ -88,6 +92,7 @@ impl Pass {
         Self::NumberObjects,
         Self::MarchVoxels,
         Self::DrawMesh,
+        Self::ReduceExact,
         Self::MarchGhost,
         Self::BuildOther,
         Self::CompareExact,
@@ -100,7 +105,7 @@ impl Pass {
             Self::TransformRigid => &["transform/rigid"],
             Self::TransformSkinned => &["transform/skinned"],
             Self::MarkLeaves => &["build/mark"],
-            Self::ReduceMasks => &["build/reduce"],
+            Self::ReduceMasks | Self::ReduceExact => &["build/reduce"],
             Self::ScanBlocks => &["build/scan_sum", "build/scan_spread"],
             Self::EmitNodes => &["build/emit"],
             Self::SortVoxels => &["fill/count", "build/scan_sum", "build/scan_spread", "fill/place"],
@@ -188,6 +193,7 @@ pub fn plan(scene: &SceneFacts, changed: &Changes, settings: &Settings) -> Frame
     let redraw = changed.view || rebuilt;
     plan.push(Pass::MarchVoxels, view(View::Voxels, settings, wanted, redraw));
     plan.push(Pass::DrawMesh, draw_mesh(scene, changed, settings));
+    plan.push(Pass::ReduceExact, reduce_exact(changed, settings, wanted));
     plan.push(Pass::MarchGhost, ghost(changed, settings, wanted, redraw));
     plan.push(Pass::BuildOther, build_other(changed, settings, wanted, rebuilt));
     plan.push(Pass::CompareExact, compare_exact(changed, settings, wanted, rebuilt));
@@ -259,11 +265,21 @@ fn compare_exact(changed: &Changes, settings: &Settings, wanted: Option<&'static
     unless(skip, rebuilt || changed.exact, "voxels or exact set changed", "both sets unchanged")
 }
 
-fn ghost(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, redraw: bool) -> Verdict {
-    let skip = wanted
+/// Why no ghost is drawn, if so.
+fn ghost_skipped(changed: &Changes, settings: &Settings, wanted: Option<&'static str>) -> Option<&'static str> {
+    wanted
         .or((settings.look.view != View::Ghost).then_some("another view is shown"))
-        .or((!changed.exact_known).then_some("the exact voxels of this pose are not made yet"));
-    unless(skip, redraw, "voxels, exact set or camera changed", "nothing changed")
+        .or((!changed.exact_known).then_some("the exact voxels of this pose are not made yet"))
+}
+
+fn reduce_exact(changed: &Changes, settings: &Settings, wanted: Option<&'static str>) -> Verdict {
+    let skip = ghost_skipped(changed, settings, wanted);
+    unless(skip, changed.exact_masks, "new exact voxels", "exact voxels unchanged")
+}
+
+fn ghost(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, redraw: bool) -> Verdict {
+    let skip = ghost_skipped(changed, settings, wanted);
+    unless(skip, redraw || changed.exact_masks, "voxels, exact set or camera changed", "nothing changed")
 }
 
 fn view(which: View, settings: &Settings, wanted: Option<&'static str>, redraw: bool) -> Verdict {

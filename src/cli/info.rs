@@ -106,9 +106,9 @@ impl Facts {
 
     fn text(&self) -> String {
         let mut lines = vec![
-            format!("{}: {} triangles in {} objects", self.name, self.triangles, self.objects),
-            format!("{} materials, {} textures", self.materials, self.textures),
-            format!("{} skins with {} joints", self.skins, self.joints),
+            format!("{}: {}, {}", self.name, count(self.triangles, "triangle"), count(self.objects, "object")),
+            format!("{}, {}", count(self.materials, "material"), count(self.textures, "texture")),
+            format!("{}, {}", count(self.skins, "skin"), count(self.joints, "joint")),
             format!("grid of {} cells of {} units, {} voxels in the caches", self.grid, self.span, self.voxels),
         ];
         lines.extend(self.clips.iter().map(|clip| format!("clip \"{}\", {:.3} s", clip.name, clip.seconds)));
@@ -124,6 +124,11 @@ impl Facts {
         lines.push(output::table(&["level", "nodes", "occupied", "dummies", "bytes"], rows));
         lines.join("\n")
     }
+}
+
+/// "1 skin", "2 skins".
+fn count(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
 impl From<Aabb> for Bounds {

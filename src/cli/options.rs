@@ -16,22 +16,22 @@ pub struct Common {
     /// Start from these settings: a JSON file, or a picture that Octolume wrote
     #[arg(long, value_name = "FILE.json|SHOT.png")]
     pub settings: Option<PathBuf>,
-    /// Cells along an axis of the grid: 64, 128, 256, 512 or 1024
+    /// Cells along an axis of the grid: 64, 128, 256, 512 or 1024; otherwise 128
     #[arg(long, value_name = "N")]
     grid: Option<u32>,
     /// Edge of a cell in scene units; otherwise the scene fits in the grid at all times
     #[arg(long, value_name = "LENGTH", value_parser = values::number, allow_hyphen_values = true)]
     span: Option<f64>,
-    /// How a moved voxel falls into cells
+    /// How a moved voxel falls into cells; otherwise split
     #[arg(long, value_name = "nearest|split", value_parser = values::name::<Filter>)]
     filter: Option<Filter>,
-    /// How a triangle becomes voxels
+    /// How a triangle becomes voxels; otherwise thin
     #[arg(long, value_name = "thin|conservative", value_parser = values::name::<VoxelizationMode>)]
     mode: Option<VoxelizationMode>,
-    /// Which point of a voxel is moved
+    /// Which point of a voxel is moved; otherwise its centre
     #[arg(long, value_name = "centre|corner", value_parser = values::name::<VoxelAnchor>)]
     anchor: Option<VoxelAnchor>,
-    /// The octree's levels down to this one are stored densely
+    /// The octree's levels down to this one are stored densely; otherwise 6
     #[arg(long, value_name = "LEVEL")]
     dense_level: Option<u32>,
     /// Clip by name, "" for the rest pose; otherwise the first

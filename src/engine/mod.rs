@@ -25,9 +25,10 @@ use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, KernelTiming};
 use crate::plan::{self, Changes, FramePlan, SceneFacts};
 use crate::prepare::{ExactVoxels, FrameMatrices, MotionError, Prepared};
 use crate::settings::{Filter, Look, Settings, View};
+use crate::stages::view::Picture;
 
 pub use built_octree::BuiltOctree;
-pub use picture::{PICTURE_FORMAT, Picture};
+use picture::ExactMasks;
 pub use read_voxels::WorldVoxels;
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 use scene_on_gpu::SceneOnGpu;
@@ -66,7 +67,8 @@ pub struct Engine {
     exact_bits: Option<(Arc<ExactVoxels>, GpuBuffer)>,
     comparison_counts: Slot,
     comparison: steps::Comparison,
-    picture: Picture,
+    exact_masks: ExactMasks,
+    picture: Option<Picture>,
     timings: steps::FrameTimings,
 }
 
@@ -91,7 +93,7 @@ struct Done {
     view: Option<(Look, [u32; 2])>,
     /// What the mesh view last drew.
     mesh_frame: Option<FrameMatrices>,
-    ghost: Option<Arc<ExactVoxels>>,
+    exact_masks: Option<Arc<ExactVoxels>>,
 }
 
 impl Engine {
@@ -102,7 +104,8 @@ impl Engine {
     /// Results do not depend on the order in which segments are taken; tests show that.
     pub fn with_segment_order(gpu: Arc<Gpu>, segment_order: SegmentOrder) -> Self {
         Self {
-            picture: Picture::default(),
+            exact_masks: ExactMasks::default(),
+            picture: None,
             gpu,
             segment_order,
             prepared: None,
@@ -135,6 +138,7 @@ impl Engine {
         self.other = BuiltOctree::default();
         self.exact = None;
         self.exact_bits = None;
+        self.exact_masks = ExactMasks::default();
         self.comparison = steps::Comparison::default();
         self.timings = steps::FrameTimings::default();
         self.prepared = prepared;
@@ -179,7 +183,6 @@ impl Engine {
         };
         let mesh_moved = wanted.settings.look.view == View::Mesh
             && self.done.mesh_frame.as_ref().is_some_and(|frame| *frame != wanted.frame);
-        let ghost_stale = wanted.settings.look.view == View::Ghost && fresh(&self.done.ghost);
         Changes {
             caches: self.scene.is_none(),
             residents: of_frame.residents,
@@ -188,8 +191,9 @@ impl Engine {
             octree: self.done.octree != Some(key),
             other_octree: self.done.other != Some(other),
             exact: fresh(&self.done.compared),
+            exact_masks: fresh(&self.done.exact_masks),
             exact_known: self.exact.is_some(),
-            view: self.done.view != Some((wanted.settings.look, wanted.size_px)) || mesh_moved || ghost_stale,
+            view: self.done.view != Some((wanted.settings.look, wanted.size_px)) || mesh_moved,
             object_numbers: !self.done.object_numbers,
         }
     }

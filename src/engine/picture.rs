@@ -1,43 +1,89 @@
 //! The picture of a frame: which view draws it, from which camera.
 
 use super::{Engine, EngineError, Wanted};
-use crate::gpu::{Gpu, GpuError, GpuTexture, Recorder};
+use crate::data::octree::{OctreeParams, Slot};
+use crate::gpu::{GpuError, GpuTexture, Recorder};
 use crate::scene::OrbitCamera;
+use crate::settings::View;
+use crate::stages::build::COUNTERS;
+use crate::stages::build::reduce::{self, Masks};
+use crate::stages::view::camera::PixelRays;
+use crate::stages::view::ghost::{self, LeafSet};
+use crate::stages::view::march::{self, MarchedOctree};
+use crate::stages::view::{GHOST_COLORS, Palette, Picture, ViewParams, shown_color};
 
-/// Format of every picture: sRGB bytes, written as plain rgba8 by kernels.
-pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-
-/// The texture that views draw into, made anew when its size changes.
+/// The masks above the exact leaves. Blocks and counters are by-products nobody reads.
 #[derive(Debug, Default)]
-pub struct Picture(Option<GpuTexture>);
-
-impl Picture {
-    pub fn ensure(&mut self, gpu: &Gpu, size_px: [u32; 2]) -> Result<GpuTexture, GpuError> {
-        if let Some(texture) = &self.0
-            && texture.size_px() == size_px
-        {
-            return Ok(texture.clone());
-        }
-        use wgpu::TextureUsages as Usage;
-        let texture = gpu.texture(&wgpu::TextureDescriptor {
-            label: Some("picture"),
-            size: wgpu::Extent3d { width: size_px[0], height: size_px[1], depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: PICTURE_FORMAT,
-            usage: Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT | Usage::COPY_SRC,
-            view_formats: &[wgpu::TextureFormat::Rgba8UnormSrgb],
-        })?;
-        Ok(self.0.insert(texture).clone())
-    }
+pub struct ExactMasks {
+    occupied: Slot,
+    blocks: Slot,
+    counters: Slot,
 }
 
 impl Engine {
+    pub(super) fn record_exact_masks(&mut self) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let leaf_bits = self.exact_bits()?;
+        let depth = self.shown.params.depth;
+        let octree = OctreeParams::new(depth, depth - 1);
+        let gpu = &self.gpu;
+        let own = &mut self.exact_masks;
+        let masks = Masks {
+            leaf_bits,
+            occupied: own.occupied.ensure(gpu, "exact occupied masks", 4 * u64::from(octree.occupied_words()))?,
+            blocks: own.blocks.ensure(gpu, "exact block masks", 4 * u64::from(octree.blocks_words()))?,
+            counters: own.counters.ensure(gpu, "exact counters", 8 * u64::from(COUNTERS))?,
+        };
+        for level in (0..depth).rev() {
+            reduce::record(gpu, &mut frame, &octree, &masks, level);
+        }
+        Ok(frame)
+    }
+
     pub(super) fn record_picture(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
-        let _texture = self.picture.ensure(&self.gpu, wanted.size_px)?;
-        let _camera = self.camera(wanted);
-        Ok(Recorder::default())
+        let mut frame = Recorder::default();
+        let picture = self.ensure_picture(wanted.size_px)?;
+        let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
+        let rays = PixelRays::new(&self.camera(wanted), &grid, wanted.size_px);
+        let look = &wanted.settings.look;
+        match look.view {
+            View::Voxels => {
+                let octree = self.marched_octree()?;
+                let palette = Palette::new(shown_color(look, grid.depth));
+                let view = ViewParams::new(&rays, look, grid.depth);
+                march::record(&self.gpu, &mut frame, &octree, (&view, &palette), &picture);
+            }
+            View::Ghost => {
+                let leaves = crate::settings::Look { level: None, ..*look };
+                let view = ViewParams::new(&rays, &leaves, grid.depth);
+                let (moved, exact) = self.ghost_sets()?;
+                let octree = self.shown.params;
+                ghost::record(&self.gpu, &mut frame, &octree, (&moved, &exact), (&view, &GHOST_COLORS), &picture);
+            }
+            View::Mesh => {}
+        }
+        Ok(frame)
+    }
+
+    fn marched_octree(&self) -> Result<MarchedOctree, GpuError> {
+        let missing = || GpuError::Missing { label: "octree".to_owned() };
+        MarchedOctree::new(&self.shown.params, &self.shown.buffers).ok_or_else(missing)
+    }
+
+    fn ghost_sets(&mut self) -> Result<(LeafSet, LeafSet), EngineError> {
+        let b = &self.shown.buffers;
+        let moved = LeafSet { leaf_bits: b.leaf_bits.made("leaf bits")?, occupied: b.occupied.made("occupied masks")? };
+        let occupied = self.exact_masks.occupied.made("exact occupied masks")?;
+        Ok((moved, LeafSet { leaf_bits: self.exact_bits()?, occupied }))
+    }
+
+    fn ensure_picture(&mut self, size_px: [u32; 2]) -> Result<Picture, GpuError> {
+        if let Some(picture) = &self.picture
+            && picture.size_px() == size_px
+        {
+            return Ok(picture.clone());
+        }
+        Ok(self.picture.insert(Picture::new(&self.gpu, size_px)?).clone())
     }
 
     /// The camera that is set, or one that frames everything.
@@ -51,17 +97,14 @@ impl Engine {
         })
     }
 
-    /// The picture; `None` before the first.
+    /// The picture, gamma-encoded sRGB; `None` before the first.
     pub fn image(&self) -> Option<&GpuTexture> {
-        self.picture.0.as_ref()
+        self.picture.as_ref().map(|picture| &picture.color)
     }
 
-    /// The picture's pixels, sRGB. Blocks until they are here.
+    /// The picture's pixels. Blocks until they are here.
     pub fn read_image(&self) -> Result<image::RgbaImage, EngineError> {
         let missing = || GpuError::Missing { label: "picture".to_owned() };
-        let texture = self.image().ok_or_else(missing)?;
-        let [width, height] = texture.size_px();
-        let pixels = self.gpu.read_texture(texture)?;
-        Ok(image::RgbaImage::from_raw(width, height, pixels).ok_or_else(missing)?)
+        Ok(self.picture.as_ref().ok_or_else(missing)?.read(&self.gpu)?)
     }
 }

@@ -31,6 +31,7 @@ pub enum Step {
     /// Brings the root back.
     Root(Which),
     NumberObjects,
+    ReduceExact,
     Picture,
     Compare(Which),
     /// Brings holes and spill back.
@@ -52,6 +53,9 @@ pub fn of_plan(plan: &FramePlan) -> VecDeque<Step> {
     }
     if plan.runs(Pass::NumberObjects) {
         steps.push_back(Step::NumberObjects);
+    }
+    if plan.runs(Pass::ReduceExact) {
+        steps.push_back(Step::ReduceExact);
     }
     if [Pass::MarchVoxels, Pass::DrawMesh, Pass::MarchGhost].into_iter().any(|pass| plan.runs(pass)) {
         steps.push_back(Step::Picture);
@@ -178,6 +182,7 @@ impl Engine {
                 let voxels = self.voxels()?;
                 job(self.shown.record_object_numbers(&self.gpu, &voxels)?)
             }
+            Step::ReduceExact => job(self.record_exact_masks()?),
             Step::Picture => job(self.record_picture(&running.wanted)?),
             Step::Compare(which) => job(self.record_comparison(which)?),
             Step::Sizes(which) => {
@@ -321,6 +326,7 @@ impl Engine {
                 self.done.object_numbers = true;
                 self.timings.numbered = took;
             }
+            Step::ReduceExact => self.done.exact_masks = self.exact.clone(),
             Step::Picture => self.picture_finished(wanted, took),
             Step::Compare(Which::Shown) => self.timings.compared = took,
             Step::Compare(Which::Other) => self.timings.compared.extend(took),
@@ -333,9 +339,6 @@ impl Engine {
         self.timings.picture = took;
         self.done.view = Some((wanted.settings.look, wanted.size_px));
         self.done.mesh_frame = (wanted.settings.look.view == View::Mesh).then(|| wanted.frame.clone());
-        if wanted.settings.look.view == View::Ghost {
-            self.done.ghost = self.exact_bits.as_ref().map(|(exact, _)| Arc::clone(exact));
-        }
     }
 }
 

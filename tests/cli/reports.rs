@@ -42,7 +42,7 @@ fn info_of_a_skin_counts_its_joints() {
 fn info_reads_well_without_json() {
     let scenes = Scenes::new();
     let text = succeed([OsStr::new("info"), scenes.turning_box().as_os_str()]);
-    assert!(text.contains("12 triangles in 1 object") && text.contains("clip \"Turn\", 2.000 s"), "{text}");
+    assert!(text.contains("box: 12 triangles, 1 object\n") && text.contains("clip \"Turn\", 2.000 s"), "{text}");
 }
 
 /// State of every pass.

@@ -28,12 +28,19 @@ impl Scenes {
         self.folder.path().join(name)
     }
 
+    /// Nothing moves it.
+    pub fn still_box(&self) -> PathBuf {
+        let mut file = Writer::default();
+        let attributes = file.box_attributes();
+        file.write(&self.path("still.gltf"), attributes, json!([{ "name": "Crate", "mesh": 0 }]), None, None)
+    }
+
     /// Turns by 90° about y in [`TURN_SECS`].
     pub fn turning_box(&self) -> PathBuf {
         let mut file = Writer::default();
         let attributes = file.box_attributes();
         let animation = file.quarter_turn(0);
-        file.write(&self.path("box.gltf"), attributes, json!([{ "name": "Crate", "mesh": 0 }]), None, animation)
+        file.write(&self.path("box.gltf"), attributes, json!([{ "name": "Crate", "mesh": 0 }]), None, Some(animation))
     }
 
     /// The box hangs between two joints; "Turn" turns the upper one.
@@ -51,7 +58,7 @@ impl Scenes {
             { "name": "Upper" },
         ]);
         let animation = file.quarter_turn(2);
-        file.write(&self.path("sleeve.gltf"), attributes, nodes, Some(json!([{ "joints": [1, 2] }])), animation)
+        file.write(&self.path("sleeve.gltf"), attributes, nodes, Some(json!([{ "joints": [1, 2] }])), Some(animation))
     }
 }
 
@@ -100,7 +107,14 @@ impl Writer {
         }])
     }
 
-    fn write(mut self, file: &Path, attributes: Value, nodes: Value, skins: Option<Value>, clips: Value) -> PathBuf {
+    fn write(
+        mut self,
+        file: &Path,
+        attributes: Value,
+        nodes: Value,
+        skins: Option<Value>,
+        clips: Option<Value>,
+    ) -> PathBuf {
         let faces: [[u16; 4]; 6] = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let indices: Vec<u16> = faces.iter().flat_map(|&[a, b, c, d]| [a, b, c, a, c, d]).collect();
         let indices = self.accessor(bytemuck::cast_slice(&indices), UNSIGNED_SHORT, "SCALAR", indices.len(), None);
@@ -113,13 +127,14 @@ impl Writer {
             "nodes": nodes,
             "meshes": [{ "primitives": [{ "attributes": attributes, "indices": indices, "material": 0 }] }],
             "materials": [{ "pbrMetallicRoughness": { "baseColorFactor": [0.8, 0.2, 0.1, 1.0] } }],
-            "animations": clips,
             "buffers": [{ "uri": bin.file_name().and_then(|name| name.to_str()), "byteLength": self.bytes.len() }],
             "bufferViews": self.views,
             "accessors": self.accessors,
         });
-        if let Some(skins) = skins {
-            document["skins"] = skins;
+        for (name, part) in [("skins", skins), ("animations", clips)] {
+            if let Some(part) = part {
+                document[name] = part;
+            }
         }
         fs::write(bin, &self.bytes).expect("written");
         fs::write(file, document.to_string()).expect("written");

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::{Quat, Vec3};
 use gltf::animation::util::ReadOutputs;
 use gltf::animation::{Interpolation, Property};
-use octolume::scene::builtin;
+use octolume::progress::Progress;
+use octolume::scene::{builtin, load};
 
 /// How far a written unit vector may be from length 1: three components each rounded to half a
 /// step of 1/8192.
@@ -45,6 +46,14 @@ fn committed_files_are_what_the_generator_makes() {
             committed.len()
         );
         assert!(made.len() <= 2 << 20, "{name}: {} bytes", made.len());
+    }
+}
+
+#[test]
+fn our_own_loader_has_nothing_to_say_against_them() {
+    for name in builtin::NAMES {
+        let scene = load::open_bytes(name, builtin::bytes(name).unwrap(), None, &Progress::default()).unwrap();
+        assert_eq!(scene.warnings, [""; 0], "{name}");
     }
 }
 

@@ -1,5 +1,8 @@
 //! The tests of the core: one module an area, one binary so that it links once.
 
+mod accumulation;
+mod averaging;
+mod builtin;
 /// Vectors and matrices, entry by entry.
 macro_rules! assert_near {
     ($value:expr, $expected:expr, $tolerance:expr $(,)?) => {
@@ -9,24 +12,27 @@ macro_rules! assert_near {
 }
 
 mod animation;
-mod builtin;
 mod camera;
 mod device;
 mod document;
 mod gpu;
 mod loading;
 mod mesh_view;
+mod mutations;
 mod motion;
 mod octree;
 mod parts;
-mod plain_octree;
 mod random;
-mod rays;
 mod scenes;
 mod shaders;
+mod plain_octree;
+mod prepared;
+mod rays;
 mod skinning;
 mod stage_checks;
 mod stage_rig;
+mod transform;
 mod view;
 mod voxelization;
 mod voxelization_payload;
+mod voxelization_surface;

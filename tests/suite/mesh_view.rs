@@ -83,7 +83,7 @@ fn drawn(gpu: &Gpu, scene: Scene, look: &Look) -> Seen {
     let target = MeshTarget { picture: &picture, depth: &depth };
     mesh::record(gpu, &mut recorder, &mut mesh, &scene.pose(None, 0.0), seen, target).expect("records");
     Job::new(recorder).run_to_end(gpu).expect("runs");
-    let bytes = picture.read_rgba8(gpu).expect("readable");
+    let bytes = picture.read(gpu).expect("readable").into_raw();
     let color = |p: &[u8]| DVec3::new(p[0].into(), p[1].into(), p[2].into()) / 255.0;
     Seen { colors: bytes.chunks(4).map(color).collect(), distances: picture.read_distances(gpu).expect("readable") }
 }

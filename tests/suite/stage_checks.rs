@@ -13,7 +13,8 @@ use octolume::stages::build::reduce_ref::{self, Pyramids};
 use octolume::stages::build::scan_spread_ref;
 use octolume::stages::fill::count_ref::{self, Block};
 use octolume::stages::fill::gather_ref::{self, Fragment, Leaf};
-use octolume::stages::fill::{gather_heavy_ref, place_ref};
+use octolume::stages::fill::number_objects::OBJECT_MASK;
+use octolume::stages::fill::{gather_heavy_ref, number_objects_ref, place_ref};
 
 use crate::stage_rig::{Built, Shape, fragment};
 
@@ -109,13 +110,13 @@ impl Expected {
             let starts: Vec<u64> = built.block_starts.iter().map(|starts| u64::from(starts[channel])).collect();
             same("block starts", &starts, &scan_spread_ref::prefixes(&values))?;
         }
-        let all = counts.keys().find(|block| !blocks.contains(block));
+        let known: BTreeSet<Block> = blocks.iter().copied().collect();
+        let all = counts.keys().find(|block| !known.contains(*block));
         ensure(all.is_none(), || format!("block {all:?} is not allocated, its voxels are lost"))?;
         self.check_places(built, &blocks)?;
-        let leaf_blocks = blocks.iter().copied().collect();
         let heavy: BTreeSet<Block> = built.heavy_blocks.iter().map(|&block| blocks[block as usize]).collect();
         same("heavy blocks listed once", &heavy.len(), &built.heavy_blocks.len())?;
-        same("heavy blocks", &heavy, &gather_heavy_ref::heavy(&counts, &leaf_blocks, filter))
+        same("heavy blocks", &heavy, &gather_heavy_ref::heavy(&counts, &known, filter))
     }
 
     fn check_places(&self, built: &Built, blocks: &[Block]) -> Check {
@@ -130,12 +131,18 @@ impl Expected {
             let sorted = (built.block_starts[*block as usize][0] + place) as usize;
             same("sorted voxel", &fragment(built.sorted_voxels[sorted]), &self.fragments[voxel])?;
         }
-        let expected = if blocks.len() < 4096 {
-            place_ref::place(&voxel_blocks, blocks)
-        } else {
-            placed_by_block(&voxel_blocks, blocks)
-        };
+        let expected = place_ref::place(&voxel_blocks, blocks);
         same("voxels of each block", &placed, &expected)
+    }
+
+    /// Leaves by object; `objects` is that of every voxel.
+    pub fn check_objects(&self, built: &Built, objects: &[u32]) -> Check {
+        let seen = self.fragments.iter().zip(objects).filter_map(|(f, object)| Some(((*f)?.q, *object)));
+        let expected = number_objects_ref::number(seen, self.shape.depth, self.shape.filter);
+        let found: BTreeMap<Cell, u32> = leaf_slots(built)
+            .map(|(cell, slot)| (cell, OBJECT_MASK - (built.leaf_objects[slot] & OBJECT_MASK)))
+            .collect();
+        same("leaves by object", &found, &expected)
     }
 
     pub fn check_leaves(&self, built: &Built) -> Check {
@@ -147,16 +154,6 @@ impl Expected {
         }
         same("leaves", &found.len(), &expected.len())
     }
-}
-
-/// The reference is quadratic; this is the same in one pass, for large scenes.
-fn placed_by_block(voxel_blocks: &[Option<Block>], blocks: &[Block]) -> Vec<BTreeSet<usize>> {
-    let index: BTreeMap<Block, usize> = blocks.iter().copied().zip(0..).collect();
-    let mut placed = vec![BTreeSet::new(); blocks.len()];
-    for (voxel, block) in voxel_blocks.iter().enumerate().filter_map(|(voxel, block)| Some((voxel, (*block)?))) {
-        placed[index[&block]].insert(voxel);
-    }
-    placed
 }
 
 pub fn quotients(fragments: &[Option<Fragment>]) -> impl Iterator<Item = Option<[i64; 3]>> + '_ {
@@ -196,24 +193,29 @@ pub fn leaf_blocks(built: &Built) -> Vec<Block> {
     built.block_keys[first..].iter().copied().map(morton_cell).collect()
 }
 
-/// Every occupied leaf's payload: slot = the block's first leaf + rank among its occupied leaves.
-pub fn leaves(built: &Built) -> Result<BTreeMap<Cell, Leaf>, String> {
-    let mut found = BTreeMap::new();
-    for (block, [_, first]) in leaf_blocks(built).into_iter().zip(&built.block_starts) {
+/// Cell and payload slot of every occupied leaf: the block's first leaf + rank in the block.
+fn leaf_slots(built: &Built) -> impl Iterator<Item = (Cell, usize)> + '_ {
+    leaf_blocks(built).into_iter().zip(&built.block_starts).flat_map(|(block, [_, first])| {
         let first_key = 8 * morton_key(block);
         let occupied = |key: &u32| built.leaf_bits[(key / 32) as usize] >> (key % 32) & 1 == 1;
-        for (key, slot) in (first_key..first_key + 8).filter(occupied).zip(*first..) {
-            let Some([occupancy, albedo, normal]) = built.leaves.get(slot as usize).copied() else {
-                return Err(format!("leaf slot {slot} of {} slots", built.leaves.len()));
-            };
-            let leaf = Leaf {
-                occupancy,
-                albedo: [0, 8, 16].map(|shift| albedo >> shift & 0xff),
-                normal: [0, 10, 20].map(|shift| normal >> shift & 0x3ff),
-            };
-            same("unused bits of a leaf", &(albedo >> 24, normal >> 30), &(0, 0))?;
-            found.insert(morton_cell(key), leaf);
-        }
+        (first_key..first_key + 8).filter(occupied).map(morton_cell).zip(*first as usize..)
+    })
+}
+
+/// Every occupied leaf's payload.
+pub fn leaves(built: &Built) -> Result<BTreeMap<Cell, Leaf>, String> {
+    let mut found = BTreeMap::new();
+    for (cell, slot) in leaf_slots(built) {
+        let Some([occupancy, albedo, normal]) = built.leaves.get(slot).copied() else {
+            return Err(format!("leaf slot {slot} of {} slots", built.leaves.len()));
+        };
+        let leaf = Leaf {
+            occupancy,
+            albedo: [0, 8, 16].map(|shift| albedo >> shift & 0xff),
+            normal: [0, 10, 20].map(|shift| normal >> shift & 0x3ff),
+        };
+        same("unused bits of a leaf", &(albedo >> 24, normal >> 30), &(0, 0))?;
+        found.insert(cell, leaf);
     }
     Ok(found)
 }
@@ -324,8 +326,9 @@ impl Expected {
 pub fn check_interpolation_corners(built: &Built) -> Check {
     let depth = built.params.depth;
     let index = walk(built)?;
+    let blocks: BTreeSet<Block> = leaf_blocks(built).into_iter().collect();
     let stored = |level: u32, cell: Cell| match level == depth {
-        true => leaf_blocks(built).binary_search_by_key(&morton_key(cell.map(|c| c / 2)), |b| morton_key(*b)).is_ok(),
+        true => blocks.contains(&cell.map(|c| c / 2)),
         false => index.contains_key(&(level, cell)),
     };
     for level in 1..=depth {

@@ -83,14 +83,6 @@ pub fn matrix(grid_from_cache: &DAffine3, anchor: f64) -> Matrix3x4 {
     Matrix3x4 { rows: [row(0), row(1), row(2)] }
 }
 
-/// What the GPU was given, exactly: the reference then sees the same matrix.
-pub fn rounded(grid_from_cache: &DAffine3) -> DAffine3 {
-    let m = matrix(grid_from_cache, 0.5).rows.map(|row| row.map(f64::from));
-    let columns = [0, 1, 2, 3].map(|c| DVec3::new(m[0][c], m[1][c], m[2][c]));
-    let centred = DAffine3::from_cols(columns[0], columns[1], columns[2], columns[3]);
-    centred * DAffine3::from_translation(DVec3::splat(-0.5))
-}
-
 pub fn cache_voxel(cell: [u32; 3], normal: DVec3, albedo: [u8; 3]) -> CacheVoxel {
     let rgb = albedo.map(|byte| f64::from(byte) / 255.0);
     CacheVoxel {

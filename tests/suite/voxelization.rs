@@ -4,15 +4,15 @@ use std::collections::BTreeSet;
 
 use glam::{DQuat, DVec3, I64Vec3, IVec3};
 use octolume::data::grid::morton_key;
-use octolume::data::voxel_cache::VoxelizationMode::{self, Conservative, Thin};
+use octolume::data::voxel_cache::VoxelizationMode::{Conservative, Thin};
 use octolume::stages::voxelize::{VoxelizeError, voxelize_cells};
 
+pub mod object;
 mod oracle;
 pub mod soup;
 
+use object::MODES;
 use soup::{Random, Soup};
-
-const MODES: [VoxelizationMode; 2] = [Thin, Conservative];
 
 fn sorted(cells: Vec<IVec3>) -> BTreeSet<[i32; 3]> {
     let count = cells.len();

@@ -110,7 +110,7 @@ pub fn plaster() -> Vec<u8> {
 pub fn travertine() -> Vec<u8> {
     png(128, 128, |u, v| {
         let layer = cloud(u, (v + 0.06 * noise(u, v, 4, 32)).fract(), 4, 31) - 0.5;
-        let pits = smoothstep(0.70, 0.90, noise(u, (v * 3.0).fract(), 14, 33)) * 0.08;
+        let pits = smoothstep(0.70, 0.90, noise((u * 2.0).fract(), (v * 5.0).fract(), 14, 33)) * 0.06;
         tinted([1.0, 0.985, 0.96], 0.93 + 0.14 * layer - pits)
     })
 }

@@ -3,16 +3,18 @@
 //! In: the block of every voxel and the blocks in key order. Out: each block's voxels as a set of
 //! voxel numbers; the order inside a block is free.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::count_ref::Block;
 
 pub fn place(voxel_blocks: &[Option<Block>], blocks_in_order: &[Block]) -> Vec<BTreeSet<usize>> {
-    let members = |block: &Block| {
-        let numbered = voxel_blocks.iter().enumerate();
-        numbered.filter(|(_, of)| of.as_ref() == Some(block)).map(|(voxel, _)| voxel).collect()
-    };
-    blocks_in_order.iter().map(members).collect()
+    let mut members: BTreeMap<Block, BTreeSet<usize>> = BTreeMap::new();
+    for (voxel, block) in voxel_blocks.iter().enumerate() {
+        if let Some(block) = block {
+            members.entry(*block).or_default().insert(voxel);
+        }
+    }
+    blocks_in_order.iter().map(|block| members.remove(block).unwrap_or_default()).collect()
 }
 
 #[cfg(test)]

@@ -3,14 +3,15 @@
 //! In: corners in cells and a box of cells to stay in. Out: every covered cell, once.
 //! *Conservative*: the cells the triangle shares an area with. *Thin*: the cells that overlap its
 //! bounds, whose axis cross along the face's dominant axis the plane meets, and whose projected
-//! axis crosses reach inside all projected edges. Every cell whose own cross the triangle meets is
-//! among them, so no axial step from centre to centre passes a closed surface: 6-separating.
-//! A triangle that meets no cross, a sub-voxel one, may therefore have no thin cell.
+//! axis crosses reach inside all projected edges. Of two axial neighbours at least one is among
+//! them if the triangle meets the step from centre to centre, so a closed surface is 6-separating.
+//! A triangle that meets no such step, a sub-voxel one, may therefore have no thin cell.
 //! Cells are half-open only for a triangle that lies in a cell plane: it covers the layer above.
 //! All decisions are signs of exact predicates, so neither winding nor rounding changes a cell.
 
 use glam::IVec3;
 
+use super::plane::Plane;
 use super::triangle::Triangle;
 use crate::data::voxel_cache::VoxelizationMode;
 
@@ -23,11 +24,18 @@ struct Scan {
     /// Inclusive cell range of the triangle's bounds, inside the clip box.
     low: [i32; 3],
     high: [i32; 3],
-    /// The bounds span one layer along w: whatever column is covered, is covered there.
-    single_layer: bool,
-    /// Edges of the projections along u, v and w; `None`: edge-on, the plane test says it all.
-    edges: [Option<[Edge; 3]>; 3],
+    /// Edges in the dominant projection, along w.
+    edges: [Edge; 3],
+    /// What columns that pass have to pass still. `None`: conservative, and the bounds span one
+    /// layer along w, so that a column that shares an area with the triangle shares it there.
+    depth: Option<Depth>,
+}
+
+/// Where in its column a triangle runs.
+struct Depth {
     plane: Plane,
+    /// Edges in the projections along u and v; `None`: edge-on, the plane test says it all.
+    side_edges: [Option<[Edge; 3]>; 2],
 }
 
 /// Calls `emit` with every cell in `clip` that the triangle covers, in no particular order.
@@ -35,13 +43,11 @@ pub(super) fn for_each_cell(triangle: &Triangle, mode: VoxelizationMode, clip: C
     let axis = triangle.dominant_axis();
     let permute = |v: [i32; 3]| [0, 1, 2].map(|k| v[(axis + 1 + k) % 3]);
     let Some(scan) = Scan::new(triangle, mode, clip.map(|corner| permute(corner.to_array()))) else { return };
-    scan.run(|u, v, w| {
-        let mut cell = [0; 3];
-        for (k, coordinate) in [u, v, w].into_iter().enumerate() {
-            cell[(axis + 1 + k) % 3] = coordinate;
-        }
-        emit(IVec3::from_array(cell));
-    });
+    match axis {
+        0 => scan.run(|u, v, w| emit(IVec3::new(w, u, v))),
+        1 => scan.run(|u, v, w| emit(IVec3::new(v, w, u))),
+        _ => scan.run(|u, v, w| emit(IVec3::new(u, v, w))),
+    }
 }
 
 impl Scan {
@@ -56,32 +62,34 @@ impl Scan {
         if (0..3).any(|k| low[k] > high[k]) {
             return None;
         }
-        let edges = [0, 1, 2].map(|k| {
+        let edges = |k: usize| {
             let flat = corners.map(|corner| [corner[(k + 1) % 3], corner[(k + 2) % 3]]);
-            (areas[k] != 0.0).then(|| Edge::all(flat, areas[k] > 0.0, mode))
+            Edge::all(flat, areas[k] > 0.0, mode)
+        };
+        let column_decides = mode == VoxelizationMode::Conservative && bounds[2][0] == bounds[2][1];
+        let depth = (!column_decides).then(|| Depth {
+            plane: Plane::new(corners, areas, mode),
+            side_edges: [0, 1].map(|k| (areas[k] != 0.0).then(|| edges(k))),
         });
-        let plane = Plane::new(corners, areas, mode);
-        Some(Self { mode, low, high, single_layer: bounds[2][0] == bounds[2][1], edges, plane })
+        Some(Self { mode, low, high, edges: edges(2), depth })
     }
 
     fn run(&self, mut emit: impl FnMut(i32, i32, i32)) {
-        // A dominant projection is never edge-on.
-        let Some(edges) = &self.edges[2] else { return };
-        // In one layer a column that shares an area with the triangle shares it there.
-        let column_decides = self.mode == VoxelizationMode::Conservative && self.single_layer;
         for v in self.low[1]..=self.high[1] {
-            let [first, last] = row_interval(edges, v, self.low[0], self.high[0]);
+            let [first, last] = self.row(v, Reach::Furthest);
+            let [sure_first, sure_last] = self.row(v, Reach::Least);
             for u in first..=last {
-                if !self.inside(edges, [u, v]) {
+                let sure = (sure_first..=sure_last).contains(&u);
+                if !sure && !self.inside(&self.edges, [u, v]) {
                     continue;
                 }
-                if column_decides {
+                let Some(depth) = &self.depth else {
                     emit(u, v, self.low[2]);
                     continue;
-                }
-                let [bottom, top] = self.plane.candidates(u, v);
+                };
+                let [bottom, top] = depth.plane.candidates(u, v);
                 for w in bottom.max(self.low[2])..=top.min(self.high[2]) {
-                    if self.plane.meets(u, v, w) && self.inside_sides(u, v, w) {
+                    if depth.plane.meets(u, v, w) && (sure || self.inside_sides(depth, u, v, w)) {
                         emit(u, v, w);
                     }
                 }
@@ -96,10 +104,51 @@ impl Scan {
         }
     }
 
-    fn inside_sides(&self, u: i32, v: i32, w: i32) -> bool {
-        self.edges[0].as_ref().is_none_or(|edges| self.inside(edges, [v, w]))
-            && self.edges[1].as_ref().is_none_or(|edges| self.inside(edges, [w, u]))
+    fn inside_sides(&self, depth: &Depth, u: i32, v: i32, w: i32) -> bool {
+        let [along_u, along_v] = &depth.side_edges;
+        along_u.as_ref().is_none_or(|edges| self.inside(edges, [v, w]))
+            && along_v.as_ref().is_none_or(|edges| self.inside(edges, [w, u]))
     }
+
+    /// Columns of row `v`, inclusive. `Furthest`: all that can be inside all edges, at times one too
+    /// many. `Least`: columns surely inside, with their whole square (conservative) or their centre
+    /// (thin): there the triangle fills the column's square or meets its axis, so that the plane
+    /// alone decides.
+    fn row(&self, v: i32, reach: Reach) -> [i32; 2] {
+        let (mut first, mut last) = (self.low[0], self.high[0]);
+        for edge in &self.edges {
+            let [reach_u, reach_v] = match (reach, self.mode) {
+                (Reach::Furthest, _) => edge.reach[0],
+                (Reach::Least, VoxelizationMode::Conservative) => edge.reach[0].map(|offset| 1.0 - offset),
+                (Reach::Least, VoxelizationMode::Thin) => [0.5; 2],
+            };
+            let [along, rise] = [edge.to[0] - edge.from[0], edge.to[1] - edge.from[1]];
+            let from_edge = f64::from(v) + reach_v - edge.from[1];
+            if rise == 0.0 {
+                if reach == Reach::Least && along * from_edge <= 0.0 {
+                    return [0, -1];
+                }
+                continue;
+            }
+            // Differences of inputs round once, so the quotient is good to a few ulp.
+            let run = along * from_edge / rise;
+            let crossing = edge.from[0] + run - reach_u;
+            let slack = 1e-12 * (1.0 + run.abs() + edge.from[0].abs());
+            let slack = if reach == Reach::Furthest { slack } else { -slack };
+            if rise < 0.0 {
+                first = first.max((crossing - slack).ceil() as i32);
+            } else {
+                last = last.min((crossing + slack).floor() as i32);
+            }
+        }
+        [first, last]
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reach {
+    Furthest,
+    Least,
 }
 
 /// Cells that the open interval between the smallest and the largest value overlaps; a single
@@ -109,28 +158,6 @@ fn cell_range(values: [f64; 3]) -> [i32; 2] {
     let max = values[0].max(values[1]).max(values[2]);
     let low = min.floor() as i32;
     [low, (max.ceil() as i32 - 1).max(low)]
-}
-
-/// Columns of row `v` that can be inside all edges: never too few, at times one too many.
-fn row_interval(edges: &[Edge; 3], v: i32, low: i32, high: i32) -> [i32; 2] {
-    let (mut first, mut last) = (low, high);
-    for edge in edges {
-        let rise = edge.to[1] - edge.from[1];
-        if rise == 0.0 {
-            continue;
-        }
-        let [reach_u, reach_v] = edge.reach[0];
-        // Differences of inputs round once, so the quotient is good to a few ulp.
-        let run = (edge.to[0] - edge.from[0]) * (f64::from(v) + reach_v - edge.from[1]) / rise;
-        let crossing = edge.from[0] + run - reach_u;
-        let slack = 1e-12 * (1.0 + run.abs() + edge.from[0].abs());
-        if rise < 0.0 {
-            first = first.max((crossing - slack).ceil() as i32);
-        } else {
-            last = last.min((crossing + slack).floor() as i32);
-        }
-    }
-    [first, last]
 }
 
 /// A projected edge, directed so that the triangle lies to its left.
@@ -174,86 +201,4 @@ impl Edge {
     fn cross_touches_inside(&self, cell: [i32; 2]) -> bool {
         self.side(cell, self.reach[0]) >= 0.0 || self.side(cell, self.reach[1]) >= 0.0
     }
-}
-
-/// The triangle's plane as heights along w over columns (u, v), slopes at most 1.
-struct Plane {
-    mode: VoxelizationMode,
-    corners: [[f64; 3]; 3],
-    counter_clockwise: bool,
-    slope: [f64; 2],
-    /// Bound on the error of an estimated height, in cells; infinite where only the predicate knows.
-    height_error: f64,
-    /// Where in a column the plane is lowest and highest, from the column's lower corner.
-    lowest: [f64; 2],
-    highest: [f64; 2],
-}
-
-impl Plane {
-    fn new(corners: [[f64; 3]; 3], areas: [f64; 3], mode: VoxelizationMode) -> Self {
-        let slope = [-areas[0] / areas[2], -areas[1] / areas[2]];
-        let lowest = match mode {
-            VoxelizationMode::Conservative => slope.map(|s| if s > 0.0 { 0.0 } else { 1.0 }),
-            VoxelizationMode::Thin => [0.5; 2],
-        };
-        let highest = lowest.map(|offset| 1.0 - offset);
-        let counter_clockwise = areas[2] > 0.0;
-        let height_error = height_error(corners, areas[2]);
-        Self { mode, corners, counter_clockwise, slope, height_error, lowest, highest }
-    }
-
-    fn height(&self, u: i32, v: i32, offset: [f64; 2]) -> f64 {
-        let [u0, v0, w0] = self.corners[0];
-        let along_u = f64::from(u) + offset[0] - u0;
-        let along_v = f64::from(v) + offset[1] - v0;
-        w0 + self.slope[0] * along_u + self.slope[1] * along_v
-    }
-
-    /// Cells of a column that may meet the plane, inclusive; saturates where the bound is infinite.
-    fn candidates(&self, u: i32, v: i32) -> [i32; 2] {
-        let low = self.height(u, v, self.lowest) - self.height_error;
-        let high = self.height(u, v, self.highest) + self.height_error;
-        [(low.ceil() as i32).saturating_sub(1), high.floor() as i32]
-    }
-
-    /// Conservative: the open cell meets the plane. Thin: the closed axis of the cell along w does.
-    fn meets(&self, u: i32, v: i32, w: i32) -> bool {
-        let (bottom, top) = (f64::from(w), f64::from(w) + 1.0);
-        let low = self.height(u, v, self.lowest);
-        let high = self.height(u, v, self.highest);
-        if low + self.height_error < top && high - self.height_error > bottom {
-            return true;
-        }
-        let below_top = self.above(u, v, self.lowest, top);
-        let above_bottom = self.above(u, v, self.highest, bottom);
-        match self.mode {
-            VoxelizationMode::Conservative => below_top > 0.0 && above_bottom < 0.0,
-            VoxelizationMode::Thin => below_top >= 0.0 && above_bottom <= 0.0,
-        }
-    }
-
-    /// Positive where the point at height `w` lies above the plane, exact in sign.
-    fn above(&self, u: i32, v: i32, offset: [f64; 2], w: f64) -> f64 {
-        let coord = |p: [f64; 3]| robust::Coord3D { x: p[0], y: p[1], z: p[2] };
-        let [a, b, c] = self.corners.map(coord);
-        let point = coord([f64::from(u) + offset[0], f64::from(v) + offset[1], w]);
-        let below = robust::orient3d(a, b, c, point);
-        if self.counter_clockwise { -below } else { below }
-    }
-}
-
-/// How far an estimated height may be off. The normal's components are differences of products of
-/// edges, so their error is relative to the bounds, not to the area: large for slivers.
-fn height_error(corners: [[f64; 3]; 3], area: f64) -> f64 {
-    let extent = [0, 1, 2].map(|k| {
-        let [a, b, c] = corners.map(|corner| corner[k]);
-        a.max(b).max(c) - a.min(b).min(c)
-    });
-    let products = extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0];
-    let relative = 8.0 * f64::EPSILON * products / area.abs();
-    if relative > 0.125 {
-        return f64::INFINITY;
-    }
-    let magnitude = corners.iter().flatten().fold(1.0, |max: f64, c| max.max(c.abs()));
-    4.0 * relative * (extent[0] + extent[1] + 2.0) + 16.0 * f64::EPSILON * (magnitude + extent[0] + extent[1])
 }

@@ -83,3 +83,35 @@ impl JointSums {
         voxel
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quantized(sums: &[(u16, u64)]) -> VoxelJoints {
+        JointSums { sums: sums.to_vec() }.quantized()
+    }
+
+    #[test]
+    fn largest_remainders_fill_up_to_255() {
+        // Thirds: 85 each. Sevenths of 3, 2, 2: 109.29, 72.86, 72.86.
+        assert_eq!(quantized(&[(5, 1), (1, 1), (9, 1)]).weights, [85, 85, 85, 0]);
+        let sevenths = quantized(&[(5, 2), (1, 3), (9, 2)]);
+        assert_eq!((sevenths.joints, sevenths.weights), ([1, 5, 9, 0], [109, 73, 73, 0]));
+    }
+
+    #[test]
+    fn four_strongest_are_kept_and_order_does_not_matter() {
+        let mut sums = [(4, 10), (2, 40), (7, 30), (1, 10), (3, 20), (9, 5)];
+        let first = quantized(&sums);
+        assert_eq!(first.joints, [2, 7, 3, 1]);
+        sums.reverse();
+        assert_eq!(quantized(&sums), first);
+    }
+
+    #[test]
+    fn joints_too_weak_for_a_unit_are_left_out() {
+        let voxel = quantized(&[(300, 1 << 40), (12, 1)]);
+        assert_eq!((voxel.joints, voxel.weights), ([300, 0, 0, 0], [255, 0, 0, 0]));
+    }
+}

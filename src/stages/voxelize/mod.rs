@@ -14,6 +14,7 @@ mod coverage;
 mod fragments;
 mod joints;
 mod payload;
+mod plane;
 mod pyramid;
 mod surface;
 mod triangle;

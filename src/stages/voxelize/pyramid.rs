@@ -47,14 +47,6 @@ impl TexturePyramids {
         Self { textures: textures.iter().map(pyramids).collect() }
     }
 
-    pub fn len(&self) -> usize {
-        self.textures.len()
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.textures.is_empty()
-    }
-
     /// Linear RGBA averaged over about `uv_area` (of the unit square) around `uv`; colours are not
     /// premultiplied. Opaque white where there is no such texture.
     pub fn sample(&self, texture: usize, texels: Texels, uv: DVec2, uv_area: f64) -> [f64; 4] {
