@@ -18,6 +18,8 @@ mod document;
 mod dummies;
 mod gpu;
 mod loading;
+mod mesh_view;
+mod mutations;
 mod motion;
 mod moving;
 mod mutations;
