@@ -41,7 +41,7 @@ fn every_view_draws_the_scene() {
 fn colours_time_and_camera_change_the_picture() {
     let scenes = Scenes::new();
     let scene = scenes.turning_box();
-    let looks: [&[&str]; 10] = [
+    let looks: [&[&str]; 9] = [
         &[],
         &["--color", "normal"],
         &["--color", "occupancy"],
@@ -50,7 +50,6 @@ fn colours_time_and_camera_change_the_picture() {
         &["--time", "1"],
         &["--turn", "0,20,0"],
         &["--eye", "9,2,1", "--target", "1,1.5,0.5", "--fov", "30"],
-        &["--edges"],
         &["--no-shading"],
     ];
     let draw = |look: &&[&str]| {
@@ -61,6 +60,16 @@ fn colours_time_and_camera_change_the_picture() {
     for (index, look) in looks.iter().enumerate().skip(1) {
         assert!(pictures[index] != pictures[0], "{look:?} draws the same");
     }
+}
+
+#[test]
+fn edges_show_where_cells_are_large() {
+    let scenes = Scenes::new();
+    let scene = scenes.still_box();
+    let large = ["--span", "0.5", "--size", "160x120"];
+    let plain = render(&scene, &scenes.path("plain.png"), &large);
+    let edged = render(&scene, &scenes.path("edged.png"), &[&large[..], &["--edges"]].concat());
+    assert!(picture(&plain) != picture(&edged));
 }
 
 #[test]
