@@ -12,6 +12,8 @@ use crate::stages::view;
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
     ("ALBEDO_NODE_SCALE", ALBEDO_NODE_SCALE),
+    ("ALPHA_BLEND", view::mesh::ALPHA_BLEND),
+    ("ALPHA_MASK", view::mesh::ALPHA_MASK),
     ("COLOR_LEVEL", view::COLOR_LEVEL),
     ("COLOR_NORMAL", view::COLOR_NORMAL),
     ("COLOR_OBJECT", view::COLOR_OBJECT),

@@ -64,8 +64,8 @@ impl Gpu {
         }
     }
 
-    /// What the program asks of a device: wgpu's default limits, buffers as large as the adapter
-    /// allows, and timestamps where there are any.
+    /// What the program asks of a device: wgpu's default limits, buffers and images as large as the
+    /// adapter allows, and timestamps where there are any.
     pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
         use wgpu::Features;
         let timestamps = Features::TIMESTAMP_QUERY
@@ -78,6 +78,7 @@ impl Gpu {
             required_limits: wgpu::Limits {
                 max_buffer_size: offered.max_buffer_size,
                 max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+                max_texture_dimension_2d: offered.max_texture_dimension_2d,
                 ..wgpu::Limits::default().or_worse_values_from(&offered)
             },
             ..Default::default()

@@ -11,6 +11,8 @@ use crate::data::pages::WorkItem;
 use crate::stages::build::LevelParams;
 use crate::stages::build::scan::ScanParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
+use crate::stages::view::mesh::{DrawParams, MeshParams};
+use crate::stages::view::mesh_scene::{MeshVertex, VertexJoints};
 use crate::stages::view::{GhostColors, Palette, ViewParams};
 
 /// Both sides of a layout, as Rust sees it.
@@ -84,4 +86,22 @@ pub const MIRRORS: &[Mirror] = &[
     ),
     mirror!(Palette, "shared/view.wgsl", "Palette", colors),
     mirror!(GhostColors, "view/ghost.wgsl", "GhostColors", both, holes, spill),
+    mirror!(MeshParams, "view/mesh.wgsl", "MeshParams", clip_from_camera, world_from_camera),
+    mirror!(MeshVertex, "view/mesh.wgsl", "MeshVertex", position, normal, tex_coord, color, pad),
+    mirror!(VertexJoints, "view/mesh.wgsl", "VertexJoints", joints, weights),
+    mirror!(Matrix3x4, "view/mesh.wgsl", "CameraMatrix", rows),
+    mirror!(
+        DrawParams,
+        "view/mesh.wgsl",
+        "DrawParams",
+        base_color,
+        first_index,
+        first_vertex,
+        first_matrix,
+        object,
+        alpha_mode,
+        cutoff,
+        pad0,
+        pad1,
+    ),
 ];

@@ -36,7 +36,7 @@ pub use error::GpuError;
 pub use job::{Job, JobState};
 pub use kernel::Kernel;
 pub use raster::{DEPTH_FORMAT, RasterKernel, RasterTarget};
-pub use recorder::{PassBuilder, Recorder};
+pub use recorder::{PassBuilder, Recorder, Uniform};
 pub use reflect::parse;
 pub use texture::GpuTexture;
 

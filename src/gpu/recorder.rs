@@ -23,6 +23,10 @@ pub struct Recorder {
     pub(super) error: Option<GpuError>,
 }
 
+/// A uniform that several passes of one recording share.
+#[derive(Clone, Debug)]
+pub struct Uniform(Range<u64>);
+
 #[derive(Debug)]
 pub(super) enum Command {
     Pass(Pass),
@@ -60,6 +64,15 @@ impl Recorder {
     /// Starts a draw into the attachments recorded last; [`PassBuilder::draw`] ends it.
     pub fn triangles(&mut self, kernel: &Arc<RasterKernel>) -> PassBuilder<'_, RasterKernel> {
         PassBuilder { recorder: self, kernel: Arc::clone(kernel), named: Vec::new(), bytes_moved: 0 }
+    }
+
+    /// Writes a uniform down once, for [`PassBuilder::shared`] in this recording.
+    pub fn uniform<T: Pod>(&mut self, value: &T) -> Uniform {
+        let start = self.uniforms.len();
+        self.uniforms.extend_from_slice(bytemuck::bytes_of(value));
+        let end = self.uniforms.len();
+        self.uniforms.resize(end.next_multiple_of(UNIFORM_ALIGNMENT), 0);
+        Uniform(start as u64..end as u64)
     }
 
     /// Sets all bytes to zero.
@@ -132,12 +145,12 @@ impl<K> PassBuilder<'_, K> {
     }
 
     pub fn uniform<T: Pod>(self, name: &str, value: &T) -> Self {
-        let uniforms = &mut self.recorder.uniforms;
-        let start = uniforms.len();
-        uniforms.extend_from_slice(bytemuck::bytes_of(value));
-        let end = uniforms.len();
-        uniforms.resize(end.next_multiple_of(UNIFORM_ALIGNMENT), 0);
-        self.with(name, Resource::Uniform(start as u64..end as u64))
+        let uniform = self.recorder.uniform(value);
+        self.shared(name, &uniform)
+    }
+
+    pub fn shared(self, name: &str, uniform: &Uniform) -> Self {
+        self.with(name, Resource::Uniform(uniform.0.clone()))
     }
 
     /// Bytes the algorithm has to read and write, for the bandwidth column.

@@ -6,9 +6,11 @@ use octolume::stages::fill::gather_ref::{Fragment, Leaf, sums};
 use proptest::prelude::*;
 
 use crate::device::gpu;
+use crate::octree_rules as rules;
 use crate::random::{self, ONE};
-use crate::stage_checks::{self as checks, Expected};
-use crate::stage_rig::{Built, Shape, World, world_voxel};
+use crate::stage_build::{Built, Shape};
+use crate::stage_checks::Expected;
+use crate::stage_rig::{World, world_voxel};
 
 const FILTERS: [Filter; 2] = [Filter::Nearest, Filter::Split];
 
@@ -23,7 +25,7 @@ fn build(voxels: &[Fragment], shape: &Shape) -> Built {
 }
 
 fn built_leaves(voxels: &[Fragment], shape: &Shape) -> std::collections::BTreeMap<[u32; 3], Leaf> {
-    checks::leaves(&build(voxels, shape)).unwrap_or_else(|difference| panic!("{difference}"))
+    rules::leaves(&build(voxels, shape)).unwrap_or_else(|difference| panic!("{difference}"))
 }
 
 fn assert_equals_reference(voxels: &[Fragment], shape: &Shape) {
@@ -31,8 +33,8 @@ fn assert_equals_reference(voxels: &[Fragment], shape: &Shape) {
     let expected = Expected::new(voxels.iter().copied().map(Some).collect(), shape);
     let all = expected
         .check(&built)
-        .and_then(|()| checks::validate(&built))
-        .and_then(|()| checks::check_conservation(&built, &expected));
+        .and_then(|()| rules::validate(&built))
+        .and_then(|()| rules::check_conservation(&built, &expected));
     all.unwrap_or_else(|difference| panic!("{} voxels, {shape:?}: {difference}", voxels.len()));
 }
 
@@ -91,7 +93,7 @@ fn a_million_full_voxels_in_one_cell_keep_their_mean() {
             .map(|i| if i % 4 == 0 { at([4; 3], [255; 3], [1022; 3]) } else { at([4; 3], [0; 3], [0; 3]) })
             .collect();
         let built = build(&voxels, &small(filter));
-        let found = checks::leaves(&built).expect("leaves");
+        let found = rules::leaves(&built).expect("leaves");
         // 255/4 = 63.75 and 1022/4 = 255.5.
         assert_eq!(found[&[4; 3]], Leaf { occupancy: FULL_WEIGHT, albedo: [64; 3], normal: [256; 3] });
         assert_eq!((found.len(), built.clipped), (1, 0));
@@ -121,9 +123,9 @@ fn equal_inputs_give_that_value_however_many() {
             let voxel = |rng: &mut _| Fragment { q: random::voxel(rng, 1).q, normal, albedo: [byte, 255 - byte, 13] };
             let voxels: Vec<_> = (0..count).map(|_| voxel(&mut rng)).collect();
             let built = build(&voxels, &Shape::new(1, 0, Filter::Split));
-            let leaves = checks::leaves(&built).expect("leaves");
+            let leaves = rules::leaves(&built).expect("leaves");
             assert!(leaves.values().all(|leaf| leaf.albedo == [byte, 255 - byte, 13] && leaf.normal == normal));
-            let root = checks::node(built.nodes[0]);
+            let root = rules::node(built.nodes[0]);
             assert_eq!(root.albedo, [4 * byte, 4 * (255 - byte), 52].map(f64::from));
             assert_eq!(root.normal, normal.map(f64::from));
         }
@@ -153,9 +155,9 @@ fn opposed_normals_are_flagged_by_zero_length() {
         let voxels: Vec<_> = pair.iter().copied().cycle().take(2 * count).collect();
         for filter in FILTERS {
             let built = build(&voxels, &small(filter));
-            let leaf = checks::leaves(&built).expect("leaves")[&[2; 3]];
+            let leaf = rules::leaves(&built).expect("leaves")[&[2; 3]];
             assert_eq!((leaf.normal, leaf.albedo, leaf.occupancy), ([511; 3], [8; 3], FULL_WEIGHT));
-            assert_eq!(checks::node(built.nodes[0]).normal, [511.0; 3]);
+            assert_eq!(rules::node(built.nodes[0]).normal, [511.0; 3]);
         }
     }
 }
@@ -166,12 +168,12 @@ fn sums_are_taken_before_occupancy_is_clamped_and_the_excess_is_known() {
     let half = Fragment { q: [ONE + ONE / 2, ONE, ONE], normal: [511; 3], albedo: [255; 3] };
     let voxels = [at([1; 3], [0; 3], [511; 3]), at([1; 3], [0; 3], [511; 3]), at([1; 3], [0; 3], [511; 3]), half];
     let built = build(&voxels, &small(Filter::Split));
-    let found = checks::leaves(&built).expect("leaves");
+    let found = rules::leaves(&built).expect("leaves");
     // 0.5·255 / 3.5 = 36.43; weights after clamping would give 85.
     assert_eq!(found[&[1; 3]], Leaf { occupancy: FULL_WEIGHT, albedo: [36; 3], normal: [511; 3] });
     assert_eq!(found[&[2, 1, 1]], Leaf { occupancy: FULL_WEIGHT / 2, albedo: [255; 3], normal: [511; 3] });
     // Excess = total − clipped − what the root holds.
-    let root = checks::node(built.nodes[0]).occupancy as u64;
+    let root = rules::node(built.nodes[0]).occupancy as u64;
     let excess = (4 << 24) - built.clipped - root;
     assert_eq!(excess, (5 << 24) / 2);
 }

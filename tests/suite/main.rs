@@ -1,8 +1,5 @@
 //! The tests of the core: one module an area, one binary so that it links once.
 
-mod accumulation;
-mod averaging;
-mod builtin;
 /// Vectors and matrices, entry by entry.
 macro_rules! assert_near {
     ($value:expr, $expected:expr, $tolerance:expr $(,)?) => {
@@ -11,26 +8,40 @@ macro_rules! assert_near {
     };
 }
 
+mod accumulation;
 mod animation;
+mod averaging;
+mod builtin;
 mod camera;
 mod device;
 mod document;
+mod dummies;
 mod gpu;
 mod loading;
-mod mutations;
+mod mesh_view;
 mod motion;
+mod moving;
+mod mutations;
+mod mutations;
 mod octree;
+mod octree_rules;
 mod parts;
+mod plain_octree;
+mod plan;
+mod prepared;
 mod random;
+mod rays;
+mod rays;
+mod scan;
 mod scenes;
 mod shaders;
-mod plain_octree;
-mod prepared;
-mod rays;
 mod skinning;
+mod stage_build;
 mod stage_checks;
 mod stage_rig;
 mod transform;
+mod transform_scenes;
+mod transform_skinned;
 mod view;
 mod voxelization;
 mod voxelization_payload;

@@ -3,9 +3,11 @@
 use octolume::settings::Filter;
 
 use crate::device::gpu;
+use crate::octree_rules as rules;
 use crate::random;
-use crate::stage_checks::{self as checks, Expected};
-use crate::stage_rig::{Shape, World, world_voxel};
+use crate::stage_build::Shape;
+use crate::stage_checks::Expected;
+use crate::stage_rig::{World, world_voxel};
 use crate::transform::check_quarter_turns;
 
 #[test]
@@ -23,12 +25,12 @@ fn dropped_dummies_are_caught() {
     let shape = Shape::new(6, 3, Filter::Split);
     let expected = Expected::new(voxels.into_iter().map(Some).collect(), &shape);
     let [sound, mutated] = [true, false].map(|dummies| world.build(gpu(), &Shape { dummies, ..shape }));
-    assert_eq!(checks::check_interpolation_corners(&sound), Ok(()));
+    assert_eq!(rules::check_interpolation_corners(&sound), Ok(()));
     assert_eq!(expected.check_pyramids(&sound), Ok(()));
-    let lacking = checks::check_interpolation_corners(&mutated).expect_err("corners are missing");
+    let lacking = rules::check_interpolation_corners(&mutated).expect_err("corners are missing");
     assert!(lacking.contains("lacks its dummy"), "{lacking}");
     expected.check_pyramids(&mutated).expect_err("the masks differ");
     // Only the dummies are gone: the octree without them is a sound one.
-    assert_eq!(checks::validate(&mutated), Ok(()));
+    assert_eq!(rules::validate(&mutated), Ok(()));
     assert_eq!(expected.check_leaves(&mutated), Ok(()));
 }

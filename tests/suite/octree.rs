@@ -1,41 +1,39 @@
-//! The octree: kernels against references, the structure's own rules, dummies.
+//! The octree: kernels against references, the structure's own rules, the same bits in every build.
 
-use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use octolume::data::octree::{OctreeBuffers, OctreeParams};
 use octolume::gpu::Gpu;
 use octolume::gpu::shaders::FILES;
 use octolume::settings::Filter;
-use octolume::stages::build::reduce_ref;
-use octolume::stages::build::scan::{self, Scanned};
-use octolume::stages::build::{scan_spread_ref, scan_sum, scan_sum_ref};
 use octolume::stages::fill::gather_ref::Fragment;
 use proptest::prelude::RngExt;
 
 use crate::device::{gpu, open};
+use crate::octree_rules as rules;
 use crate::random::{self, ONE};
-use crate::stage_checks::{self as checks, Expected};
-use crate::stage_rig::{Built, Shape, World, buffer, read, run, upload, world_voxel};
+use crate::stage_build::{Built, Shape};
+use crate::stage_checks::Expected;
+use crate::stage_rig::{World, world_voxel};
 
 const FILTERS: [Filter; 2] = [Filter::Nearest, Filter::Split];
 
 /// Builds and holds every check against what came out.
-fn build_checked(gpu: &Gpu, voxels: &[Fragment], shape: &Shape) -> Built {
+pub fn build_checked(gpu: &Gpu, voxels: &[Fragment], shape: &Shape) -> Built {
     let words: Vec<_> = voxels.iter().map(world_voxel).collect();
     let world = World::given(gpu, &words);
     let built = world.build(gpu, shape);
     let expected = Expected::new(voxels.iter().copied().map(Some).collect(), shape);
     let all = expected
         .check(&built)
-        .and_then(|()| checks::validate(&built))
-        .and_then(|()| checks::check_conservation(&built, &expected))
-        .and_then(|()| checks::check_interpolation_corners(&built));
+        .and_then(|()| rules::validate(&built))
+        .and_then(|()| rules::check_conservation(&built, &expected))
+        .and_then(|()| rules::check_interpolation_corners(&built));
     all.unwrap_or_else(|difference| panic!("{} voxels, {shape:?}: {difference}", voxels.len()));
     built
 }
 
-fn aligned(cell: [i64; 3]) -> Fragment {
+pub fn aligned(cell: [i64; 3]) -> Fragment {
     Fragment { q: cell.map(|c| c * ONE), normal: [511, 511, 1022], albedo: [200, 100, 50] }
 }
 
@@ -96,7 +94,7 @@ fn the_eight_corners_of_the_grid() {
         let built = build_checked(gpu(), &corners, &Shape::new(6, dense_level, Filter::Split));
         assert_eq!(built.params.leaf_count, 8);
         // 63 shares its block with its dummy 62 at the leaves; higher up, node 2^l − 1 does too.
-        let root = checks::node(built.nodes[0]);
+        let root = rules::node(built.nodes[0]);
         assert_eq!(root.occupancy, 8 << 24);
         assert_eq!((root.albedo, root.normal), ([800.0, 400.0, 200.0], [511.0, 511.0, 1022.0]));
         if dense_level == 5 {
@@ -115,59 +113,6 @@ fn a_full_block_and_a_full_grid() {
         let built = build_checked(gpu(), &all, &Shape::new(3, dense_level, Filter::Nearest));
         assert_eq!(built.params.inner_node_count, 1 + 8 + 64);
         assert!(built.leaves.iter().all(|leaf| leaf[0] == 1 << 24));
-    }
-}
-
-#[test]
-fn no_dummy_outside_the_grid_and_none_wraps_a_row() {
-    for cell in [[0, 32, 32], [32, 0, 32], [32, 32, 0], [0, 0, 0], [0, 0, 63]] {
-        let built = build_checked(gpu(), &[aligned(cell)], &Shape::new(6, 0, Filter::Split));
-        for level in 0..6 {
-            let near = |node: &[u32; 3]| {
-                (0..3).all(|axis| (cell[axis] >> (6 - level)) - i64::from(node[axis]) <= 1)
-                    && (0..3).all(|axis| i64::from(node[axis]) <= cell[axis] >> (6 - level))
-            };
-            let allocated = checks::allocated_cells(&built, level);
-            assert!(allocated.iter().all(near), "level {level}: {allocated:?}");
-        }
-    }
-}
-
-#[test]
-fn a_lone_voxel_has_all_its_dummies() {
-    let mut rng = random::rng(9);
-    for _ in 0..12 {
-        let cell = [(); 3].map(|()| rng.random_range(0..64));
-        let built = build_checked(gpu(), &[aligned(cell)], &Shape::new(6, 0, Filter::Split));
-        for level in 0..6 {
-            // A node's own block, and the one behind along each axis where the node below is the first of its block.
-            let below = cell.map(|c| c >> (5 - level));
-            let of_axis = |c: i64| if c > 0 && c % 2 == 0 { 2 } else { 1 };
-            let own: u32 = below.iter().map(|&c| of_axis(c)).product();
-            let found = checks::allocated_cells(&built, level);
-            let wanted = reduce_ref::parents(&reduce_ref::backward_dilate(&BTreeSet::from([below.map(|c| c as u32)])));
-            assert_eq!(wanted.len() as u32, own);
-            assert!(found.is_superset(&wanted), "level {level} of {cell:?}");
-        }
-    }
-}
-
-#[test]
-fn dummies_change_no_average_and_no_leaf() {
-    let voxels = random::scene(4, 800, 6);
-    let words: Vec<_> = voxels.iter().map(world_voxel).collect();
-    let world = World::given(gpu(), &words);
-    for dense_level in [0, 3] {
-        let shape = Shape::new(6, dense_level, Filter::Split);
-        let with = world.build(gpu(), &shape);
-        let without = world.build(gpu(), &Shape { dummies: false, ..shape });
-        assert!(without.params.block_count < with.params.block_count);
-        assert_eq!(checks::leaves(&with), checks::leaves(&without));
-        let (index_with, index_without) = (checks::walk(&with).expect("walks"), checks::walk(&without).expect("walks"));
-        for (key, index) in &index_with {
-            let bare = index_without.get(key).map_or([0; 4], |index| without.nodes[*index as usize]);
-            assert_eq!(with.nodes[*index as usize], bare, "node {key:?}");
-        }
     }
 }
 
@@ -246,48 +191,6 @@ fn a_build_that_needs_more_than_its_buffers_hold_equals_one_in_large_buffers() {
 }
 
 #[test]
-fn scans_of_any_length_are_prefix_sums() {
-    let mut rng = random::rng(11);
-    for count in [0, 1, 63, 64, 65, 4096, 4097, 300_001] {
-        let words: Vec<u32> = (0..2 * count).map(|_| rng.random_range(0..6000)).collect();
-        let bits: Vec<u32> = (0..count).map(|_| rng.random_range(0..=u32::MAX)).collect();
-        let scanned = |scanned: Scanned, values: &[u32]| -> Vec<u64> {
-            let entries = u64::from(scanned.channels()) * (count as u64 + 1);
-            let (from, to) = (upload(gpu(), "values", values), buffer(gpu(), "prefixes", entries));
-            run(gpu(), |frame| {
-                scan::record(gpu(), frame, (scanned, count as u32), &from, &to, &mut Vec::new()).expect("fits");
-            });
-            read::<u32>(gpu(), &to, entries).into_iter().map(u64::from).collect()
-        };
-        let channel =
-            |values: &[u32], channel: usize| values.iter().copied().skip(channel).step_by(2).collect::<Vec<_>>();
-        let pairs = scanned(Scanned::Pairs, &words);
-        for c in 0..2 {
-            let found: Vec<u64> = pairs.iter().copied().skip(c).step_by(2).collect();
-            assert!(found == scan_spread_ref::prefixes(&channel(&words, c)), "{count} pairs");
-        }
-        let ones: Vec<u32> = bits.iter().map(|word| word.count_ones()).collect();
-        assert!(scanned(Scanned::Bits, &bits) == scan_spread_ref::prefixes(&ones), "{count} words of bits");
-    }
-}
-
-#[test]
-fn chunk_sums_are_sums_of_chunks() {
-    let values: Vec<u32> = (0..1000).collect();
-    let (from, to) = (upload(gpu(), "values", &values), buffer(gpu(), "sums", 16));
-    let constants = Scanned::Pairs.constants(true);
-    run(gpu(), |frame| scan_sum::record(gpu(), frame, constants, 500, &from, &to));
-    let found: Vec<u64> = read::<u32>(gpu(), &to, 16).into_iter().map(u64::from).collect();
-    for channel in 0..2 {
-        let of_channel: Vec<u32> = values.iter().copied().skip(channel).step_by(2).collect();
-        let sums: Vec<u64> = found.iter().copied().skip(channel).step_by(2).collect();
-        assert_eq!(sums, scan_sum_ref::chunk_sums(&of_channel, 64));
-    }
-    // In closed form: the first 64 even numbers.
-    assert_eq!(found[0], 63 * 64);
-}
-
-#[test]
 fn no_kernel_of_the_build_waits_for_another_thread() {
     let is_built =
         |path: &str| ["build/", "fill/", "average/", "shared/"].iter().any(|folder| path.starts_with(folder));
@@ -306,10 +209,10 @@ fn the_deepest_grid_keeps_its_last_cell() {
     let voxels = [aligned([last; 3]), aligned([0, last, 1])];
     let words: Vec<_> = voxels.iter().map(world_voxel).collect();
     let built = World::given(gpu(), &words).build(gpu(), &Shape::new(depth, 6, Filter::Split));
-    checks::validate(&built).expect("valid");
-    let found = checks::leaves(&built).expect("leaves");
+    rules::validate(&built).expect("valid");
+    let found = rules::leaves(&built).expect("leaves");
     assert_eq!(found.keys().copied().collect::<Vec<_>>(), [[0, last as u32, 1], [last as u32; 3]]);
     // Two full leaves of 2^27: nothing narrower than 64 bits of occupancy would see them.
-    assert_eq!(checks::node(built.nodes[0]).occupancy, 2 << 24);
+    assert_eq!(rules::node(built.nodes[0]).occupancy, 2 << 24);
     assert_eq!(built.params.dense_node_count, OctreeParams::new(depth, 6).dense_node_count);
 }

@@ -1,18 +1,12 @@
-//! Drives the stages the way an engine does, from a cache or from world voxels to the averaged
-//! octree, and reads everything back.
+//! Drives the transformation the way an engine does: parts with caches and matrices become world
+//! voxels in pages. World voxels can be given as well, for the stages behind.
 
 use glam::{DAffine3, DVec3};
-use octolume::data::octree::{MAX_FRAGMENTS, OctreeBuffers, OctreeParams, Slot, mask_words};
 use octolume::data::packing::{pack_normal, pack_position, pack_rgba8, unpack_position};
 use octolume::data::pages::{Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
 use octolume::data::voxel_cache::{CacheVoxel, VoxelJoints};
 use octolume::gpu::{Gpu, GpuBuffer, Job, Recorder};
-use octolume::settings::Filter;
-use octolume::stages::average::average;
-use octolume::stages::build::scan::{self, Scanned};
-use octolume::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, LevelParams, emit, mark, reduce};
 use octolume::stages::fill::gather_ref::Fragment;
-use octolume::stages::fill::{Filling, count, gather, gather_heavy, number_objects, place};
 use octolume::stages::transform::rigid_ref::{pack_q, unpack_q};
 use octolume::stages::transform::{Matrix3x4, MovingVoxels, Part, rigid, skinned};
 use wgpu::BufferUsages;
@@ -28,49 +22,10 @@ pub struct RigPart {
     pub matrices: Vec<Matrix3x4>,
 }
 
-#[derive(Clone, Copy, Debug)]
-pub struct Shape {
-    pub depth: u32,
-    pub dense_level: u32,
-    pub filter: Filter,
-    /// Off only to show that tests see it.
-    pub dummies: bool,
-}
-
-impl Shape {
-    pub fn new(depth: u32, dense_level: u32, filter: Filter) -> Self {
-        Self { depth, dense_level, filter, dummies: true }
-    }
-}
-
 /// World voxels on the GPU with the work list that walks them.
 pub struct World {
     pub moving: MovingVoxels,
     pub list: WorkList,
-}
-
-/// Everything that a build leaves, as it lies in the buffers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Built {
-    pub params: OctreeParams,
-    pub leaf_bits: Vec<u32>,
-    pub occupied: Vec<u32>,
-    pub blocks: Vec<u32>,
-    pub ranks: Vec<u32>,
-    pub clipped: u64,
-    /// Occupied nodes of levels 0 … depth.
-    pub occupied_counts: Vec<u64>,
-    pub block_keys: Vec<u32>,
-    pub first_child: Vec<u32>,
-    pub block_counts: Vec<[u32; 2]>,
-    pub block_starts: Vec<[u32; 2]>,
-    pub places: Vec<[u32; 2]>,
-    pub sorted_voxels: Vec<[u32; 4]>,
-    pub leaves: Vec<[u32; 3]>,
-    pub nodes: Vec<[u32; 4]>,
-    pub heavy_blocks: Vec<u32>,
-    /// A word an occupied leaf, see `fill/number_objects.wgsl`.
-    pub leaf_objects: Vec<u32>,
 }
 
 /// `grid_from_cache` as uploaded: the anchor of a voxel (its centre: ½) folded in, then f32.
@@ -215,176 +170,4 @@ impl World {
     pub fn fragments(&self, gpu: &Gpu) -> Vec<Option<Fragment>> {
         self.read(gpu).into_iter().map(fragment).collect()
     }
-
-    /// Builds, fills and averages the octree in new buffers.
-    pub fn build(&self, gpu: &Gpu, shape: &Shape) -> Built {
-        self.build_in(gpu, shape, &mut OctreeBuffers::default())
-    }
-
-    /// The same in buffers that may hold an earlier build.
-    pub fn build_in(&self, gpu: &Gpu, shape: &Shape, buffers: &mut OctreeBuffers) -> Built {
-        let masks = Masked::new(gpu, &OctreeParams::new(shape.depth, shape.dense_level), buffers);
-        masks.record(gpu, &self.moving, shape);
-        let params = masks.counted(gpu);
-        let filling = masks.filling(gpu, &params, u64::from(self.list.threads), buffers);
-        self.fill(gpu, shape, &params, &masks, &filling);
-        masks.built(gpu, params, &filling, u64::from(self.list.threads))
-    }
-
-    fn fill(&self, gpu: &Gpu, shape: &Shape, params: &OctreeParams, masks: &Masked, filling: &OutBuffers) {
-        let out = &filling.emitted;
-        run(gpu, |frame| {
-            for buffer in [&out.first_child, &filling.fill.nodes, &filling.fill.heavy_blocks] {
-                frame.clear(buffer);
-            }
-            for level in shape.dense_level..shape.depth {
-                let look_up = (&masks.reduced.blocks, &masks.ranks, &masks.reduced.leaf_bits);
-                emit::record(gpu, frame, params, look_up, out, level);
-            }
-            let (moving, fill) = (&self.moving, &filling.fill);
-            count::record(gpu, frame, moving, params, shape.filter, fill);
-            let pairs = (Scanned::Pairs, params.leaf_block_count);
-            let scanned = scan::record(gpu, frame, pairs, &out.block_counts, &fill.block_starts, &mut Vec::new());
-            scanned.unwrap_or_else(|error| panic!("{error}"));
-            place::record(gpu, frame, moving, fill);
-            gather::record(gpu, frame, params, shape.filter, fill);
-            gather_heavy::record(gpu, frame, params, shape.filter, fill);
-            for level in (0..shape.depth - 1).rev() {
-                average::record(gpu, frame, params, &out.first_child, &fill.nodes, level);
-            }
-            let bits_and_objects = (&masks.reduced.leaf_bits, &filling.leaf_objects);
-            number_objects::record(gpu, frame, moving, (params, shape.filter), fill, bits_and_objects);
-        });
-    }
-}
-
-/// A new buffer is full of ones, so that whatever is not written shows; an old one keeps its contents.
-fn dirty(gpu: &Gpu, slot: &mut Slot, label: &str, words: u64) -> GpuBuffer {
-    let is_new = slot.get().is_none_or(|buffer| buffer.bytes() < 4 * words);
-    let buffer = slot.ensure(gpu, label, 4 * words).unwrap_or_else(|error| panic!("{error}"));
-    if is_new {
-        gpu.write(&buffer, 0, &vec![0xff; buffer.bytes() as usize]).unwrap_or_else(|error| panic!("{error}"));
-    }
-    buffer
-}
-
-/// Mask buffers: sizes known before anything is built.
-struct Masked {
-    params: OctreeParams,
-    reduced: reduce::Masks,
-    ranks: GpuBuffer,
-}
-
-struct OutBuffers {
-    emitted: emit::Emitted,
-    fill: Filling,
-    leaf_objects: GpuBuffer,
-}
-
-impl Masked {
-    fn new(gpu: &Gpu, params: &OctreeParams, buffers: &mut OctreeBuffers) -> Self {
-        let reduced = reduce::Masks {
-            leaf_bits: dirty(gpu, &mut buffers.leaf_bits, "leaf bits", mask_words(params.depth).into()),
-            occupied: dirty(gpu, &mut buffers.occupied, "occupied", params.occupied_words().into()),
-            blocks: dirty(gpu, &mut buffers.blocks, "blocks", params.blocks_words().into()),
-            counters: dirty(gpu, &mut buffers.counters, "counters", 2 * u64::from(COUNTERS)),
-        };
-        let ranks = dirty(gpu, &mut buffers.ranks, "ranks", u64::from(params.blocks_words()) + 1);
-        Self { params: *params, reduced, ranks }
-    }
-
-    fn record(&self, gpu: &Gpu, moving: &MovingVoxels, shape: &Shape) {
-        let (params, masks) = (&self.params, &self.reduced);
-        run(gpu, |frame| {
-            mark::record(gpu, frame, moving, params, shape.filter, &masks.leaf_bits, &masks.counters);
-            for level in (0..shape.depth).rev() {
-                if shape.dummies {
-                    reduce::record(gpu, frame, params, masks, level);
-                } else {
-                    reduce_without_dummies(gpu, frame, params, masks, level);
-                }
-            }
-            let bits = (Scanned::Bits, params.blocks_words());
-            let scanned = scan::record(gpu, frame, bits, &masks.blocks, &self.ranks, &mut Vec::<Slot>::new());
-            scanned.unwrap_or_else(|error| panic!("{error}"));
-        });
-    }
-
-    /// The sizes that the scan has found.
-    fn counted(&self, gpu: &Gpu) -> OctreeParams {
-        let params = &self.params;
-        let ranks: Vec<u32> = read(gpu, &self.ranks, u64::from(params.blocks_words()) + 1);
-        let words = (params.dense_level..params.depth).map(|level| params.levels[level as usize].blocks_word);
-        let firsts: Vec<u32> = words.chain([params.blocks_words()]).map(|word| ranks[word as usize]).collect();
-        params.with_counts(&firsts, self.counters(gpu)[(COUNTER_OCCUPIED + params.depth) as usize] as u32)
-    }
-
-    fn counters(&self, gpu: &Gpu) -> Vec<u64> {
-        read(gpu, &self.reduced.counters, COUNTERS.into())
-    }
-
-    fn filling(&self, gpu: &Gpu, params: &OctreeParams, voxels: u64, buffers: &mut OctreeBuffers) -> OutBuffers {
-        let leaf_blocks = u64::from(params.leaf_block_count);
-        let inner_nodes = u64::from(params.inner_node_count);
-        let leaves = u64::from(params.leaf_count);
-        let heavy_words = 2 + 8 * voxels / u64::from(MAX_FRAGMENTS);
-        let emitted = emit::Emitted {
-            block_keys: dirty(gpu, &mut buffers.block_keys, "block keys", params.block_count.into()),
-            first_child: dirty(gpu, &mut buffers.first_child, "first child", inner_nodes),
-            block_counts: dirty(gpu, &mut buffers.block_counts, "block counts", 2 * leaf_blocks),
-        };
-        let fill = Filling {
-            blocks: self.reduced.blocks.clone(),
-            ranks: self.ranks.clone(),
-            block_keys: emitted.block_keys.clone(),
-            block_counts: emitted.block_counts.clone(),
-            block_starts: dirty(gpu, &mut buffers.block_starts, "block starts", 2 * (leaf_blocks + 1)),
-            places: dirty(gpu, &mut buffers.places, "places", 2 * voxels),
-            sorted_voxels: dirty(gpu, &mut buffers.sorted_voxels, "sorted voxels", 4 * voxels),
-            leaves: dirty(gpu, &mut buffers.leaves, "leaves", 3 * leaves),
-            nodes: dirty(gpu, &mut buffers.nodes, "nodes", 4 * inner_nodes),
-            heavy_blocks: dirty(gpu, &mut buffers.heavy_blocks, "heavy blocks", heavy_words),
-        };
-        let leaf_objects = dirty(gpu, &mut buffers.leaf_objects, "leaf objects", leaves);
-        OutBuffers { emitted, fill, leaf_objects }
-    }
-
-    fn built(&self, gpu: &Gpu, params: OctreeParams, out: &OutBuffers, voxels: u64) -> Built {
-        let (masks, fill) = (&self.reduced, &out.fill);
-        let counters = self.counters(gpu);
-        let leaf_blocks = u64::from(params.leaf_block_count);
-        let heavy: Vec<u32> = read(gpu, &fill.heavy_blocks, 2 + 8 * voxels / u64::from(MAX_FRAGMENTS));
-        Built {
-            params,
-            leaf_bits: read(gpu, &masks.leaf_bits, mask_words(params.depth).into()),
-            occupied: read(gpu, &masks.occupied, params.occupied_words().into()),
-            blocks: read(gpu, &masks.blocks, params.blocks_words().into()),
-            ranks: read(gpu, &self.ranks, u64::from(params.blocks_words()) + 1),
-            clipped: counters[COUNTER_CLIPPED as usize],
-            occupied_counts: counters[COUNTER_OCCUPIED as usize..][..=params.depth as usize].to_vec(),
-            block_keys: read(gpu, &fill.block_keys, params.block_count.into()),
-            first_child: read(gpu, &out.emitted.first_child, params.inner_node_count.into()),
-            block_counts: read(gpu, &fill.block_counts, leaf_blocks),
-            block_starts: read(gpu, &fill.block_starts, leaf_blocks + 1),
-            places: read(gpu, &fill.places, voxels),
-            sorted_voxels: read(gpu, &fill.sorted_voxels, voxels),
-            leaves: read(gpu, &fill.leaves, params.leaf_count.into()),
-            nodes: read(gpu, &fill.nodes, params.inner_node_count.into()),
-            heavy_blocks: heavy[1..1 + heavy[0] as usize].to_vec(),
-            leaf_objects: read(gpu, &out.leaf_objects, params.leaf_count.into()),
-        }
-    }
-}
-
-/// The mutation of `reduce`: no backward neighbours.
-fn reduce_without_dummies(gpu: &Gpu, frame: &mut Recorder, params: &OctreeParams, masks: &reduce::Masks, level: u32) {
-    frame
-        .pass(&gpu.kernel("build/reduce.wgsl", &[("DUMMIES", 0.0)]))
-        .uniform("octree", params)
-        .uniform("params", &LevelParams { level })
-        .bind("leaf_bits", &masks.leaf_bits)
-        .bind("occupied", &masks.occupied)
-        .bind("blocks", &masks.blocks)
-        .bind("counters", &masks.counters)
-        .dispatch(mask_words(level).into());
 }

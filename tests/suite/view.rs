@@ -87,7 +87,7 @@ struct Seen {
 
 fn seen(gpu: &Gpu, recorder: Recorder, picture: &Picture) -> Seen {
     Job::new(recorder).run_to_end(gpu).expect("runs");
-    let bytes = picture.read_rgba8(gpu).expect("readable");
+    let bytes = picture.read(gpu).expect("readable").into_raw();
     let color = |p: &[u8]| DVec3::new(p[0].into(), p[1].into(), p[2].into()) / 255.0;
     Seen { colors: bytes.chunks(4).map(color).collect(), distances: picture.read_distances(gpu).expect("readable") }
 }

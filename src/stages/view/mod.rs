@@ -7,6 +7,9 @@ pub mod ghost;
 pub mod ghost_ref;
 pub mod march;
 pub mod march_ref;
+pub mod mesh;
+pub mod mesh_scene;
+mod mesh_texture;
 pub mod palette;
 pub mod picture;
 

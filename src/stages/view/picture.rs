@@ -1,5 +1,7 @@
 //! What a view draws into.
 
+use image::RgbaImage;
+
 use crate::gpu::{DEPTH_FORMAT, Gpu, GpuError, GpuTexture};
 
 /// Gamma-encoded sRGB, as egui and PNG files take it.
@@ -32,9 +34,11 @@ impl Picture {
         self.size_px().into_iter().map(|side| u64::from(side.next_multiple_of(8))).product()
     }
 
-    /// RGBA bytes, rows from the top. Blocks until submitted work is done.
-    pub fn read_rgba8(&self, gpu: &Gpu) -> Result<Vec<u8>, GpuError> {
-        gpu.read_texture(&self.color)
+    /// Blocks until submitted work is done.
+    pub fn read(&self, gpu: &Gpu) -> Result<RgbaImage, GpuError> {
+        let [width, height] = self.size_px();
+        // The texture's own size and format: its bytes always fill an image.
+        Ok(RgbaImage::from_raw(width, height, gpu.read_texture(&self.color)?).unwrap_or_default())
     }
 
     /// Distances in cells, rows from the top. Blocks likewise.

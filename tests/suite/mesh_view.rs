@@ -1,0 +1,312 @@
+//! The mesh view: triangles land where the camera's rays meet them, with the right colour.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use glam::{DMat4, DQuat, DVec3, IVec3, Vec2, Vec3, Vec4};
+use octolume::data::grid::Grid;
+use octolume::gpu::{Gpu, Job, Recorder};
+use octolume::scene::{
+    AlphaMode, LocalTransform, Material, Mesh, Node, OrbitCamera, Primitive, Scene, Skin, Texture, TextureRef, Trs,
+    Wrap,
+};
+use octolume::settings::{ColorBy, Look};
+use octolume::stages::view::camera::PixelRays;
+use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
+use octolume::stages::view::mesh_scene::MeshScene;
+use octolume::stages::view::palette::{gamma_from_linear, legend_object};
+use octolume::stages::view::{AMBIENT, BACKGROUND, NO_DEPTH, Picture, picture};
+
+use crate::device::{gpu, open};
+
+const SIZE_PX: [u32; 2] = [64, 48];
+
+fn grid() -> Grid {
+    Grid { anchor: DVec3::ZERO, offset_cells: IVec3::splat(-8), span: 0.125, depth: 4 }
+}
+
+fn camera() -> OrbitCamera {
+    OrbitCamera { eye: DVec3::new(0.4, 0.7, 3.0), target: DVec3::ZERO, fov_y_degrees: 40.0 }
+}
+
+fn node(name: &str, translation: DVec3) -> Node {
+    let local = LocalTransform::Trs(Trs { translation, ..Trs::default() });
+    Node { name: name.to_owned(), parent: None, local, mesh: None, skin: None, camera: None, light: None }
+}
+
+/// A square of side 2 around the origin in the xy plane.
+fn square() -> Primitive {
+    Primitive {
+        positions: vec![
+            Vec3::new(-1.0, -1.0, 0.0),
+            Vec3::new(1.0, -1.0, 0.0),
+            Vec3::new(1.0, 1.0, 0.0),
+            Vec3::new(-1.0, 1.0, 0.0),
+        ],
+        normals: vec![Vec3::Z; 4],
+        tex_coords: [vec![Vec2::new(0.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.0)], vec![]],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Primitive::default()
+    }
+}
+
+fn scene(primitives: Vec<Primitive>, nodes: Vec<Node>) -> Scene {
+    Scene { nodes, meshes: vec![Mesh { name: "mesh".to_owned(), primitives }], ..Scene::default() }
+}
+
+fn one_square(material: Material) -> Scene {
+    let primitive = Primitive { material: Some(0), ..square() };
+    Scene {
+        materials: vec![material],
+        ..scene(vec![primitive], vec![Node { mesh: Some(0), ..node("square", DVec3::ZERO) }])
+    }
+}
+
+struct Seen {
+    colors: Vec<DVec3>,
+    distances: Vec<f32>,
+}
+
+fn look() -> Look {
+    Look { shaded: false, ..Look::default() }
+}
+
+fn drawn(gpu: &Gpu, scene: Scene, look: &Look) -> Seen {
+    let objects = (0..).zip(scene.objects()).collect();
+    let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects);
+    while !mesh.upload(gpu, Duration::ZERO).expect("fits") {}
+    let picture = Picture::new(gpu, SIZE_PX).expect("fits");
+    let depth = picture::depth_buffer(gpu, SIZE_PX).expect("fits");
+    let (camera, grid) = (camera(), grid());
+    let mut recorder = Recorder::default();
+    let seen = MeshView { camera: &camera, grid: &grid, look };
+    let target = MeshTarget { picture: &picture, depth: &depth };
+    mesh::record(gpu, &mut recorder, &mut mesh, &scene.pose(None, 0.0), seen, target).expect("records");
+    Job::new(recorder).run_to_end(gpu).expect("runs");
+    let bytes = picture.read(gpu).expect("readable").into_raw();
+    let color = |p: &[u8]| DVec3::new(p[0].into(), p[1].into(), p[2].into()) / 255.0;
+    Seen { colors: bytes.chunks(4).map(color).collect(), distances: picture.read_distances(gpu).expect("readable") }
+}
+
+fn pixels() -> impl Iterator<Item = (usize, [f64; 2])> {
+    let [width, height] = SIZE_PX;
+    (0..width * height).map(move |i| (i as usize, [f64::from(i % width) + 0.5, f64::from(i / width) + 0.5]))
+}
+
+/// Where a pixel's ray meets the plane z = `z` (scene units), and how far that is from the eye, cells.
+fn meets(point_px: [f64; 2], z: f64) -> (DVec3, f64) {
+    let grid = grid();
+    let ray = PixelRays::new(&camera(), &grid, SIZE_PX).ray(point_px);
+    let plane = grid.grid_from_world().transform_point3(DVec3::new(0.0, 0.0, z)).z;
+    let t = (plane - ray.origin.z) / ray.direction.z;
+    let place = grid.grid_from_world().inverse().transform_point3(ray.origin + ray.direction * t);
+    (place, ray.start_cells + t)
+}
+
+fn assert_color(color: DVec3, linear: DVec3, what: &str) {
+    let expected = DVec3::from_array(linear.to_array().map(gamma_from_linear));
+    assert!((color - expected).abs().max_element() < 1.0 / 255.0, "{what}: {color} is not {expected}");
+}
+
+fn background() -> DVec3 {
+    DVec3::from_array(BACKGROUND.map(f64::from))
+}
+
+#[test]
+fn a_square_lies_where_its_rays_meet_it() {
+    let color = DVec3::new(0.2, 0.5, 0.9);
+    let [r, g, b] = color.as_vec3().to_array();
+    let seen = drawn(gpu(), one_square(Material { base_color: [r, g, b, 1.0], ..Material::default() }), &look());
+    let mut inside = 0;
+    for (index, point) in pixels() {
+        let (place, distance) = meets(point, 0.0);
+        let from_border = 1.0 - place.abs().x.max(place.abs().y);
+        if from_border.abs() < 1e-4 {
+            continue;
+        }
+        if from_border < 0.0 {
+            assert_color(seen.colors[index], background(), "outside");
+            assert_eq!(seen.distances[index], NO_DEPTH);
+            continue;
+        }
+        inside += 1;
+        assert_color(seen.colors[index], color, "inside");
+        assert!((f64::from(seen.distances[index]) - distance).abs() < 1e-4 * distance, "{point:?}");
+    }
+    assert!(inside > 200, "{inside} pixels inside");
+}
+
+#[test]
+fn the_headlight_is_that_of_the_voxels() {
+    let seen = drawn(gpu(), one_square(Material::default()), &Look { shaded: true, ..look() });
+    let grid = grid();
+    let rays = PixelRays::new(&camera(), &grid, SIZE_PX);
+    for (index, point) in pixels().filter(|(_, point)| meets(*point, 0.0).0.abs().max_element() < 0.99) {
+        let light = AMBIENT + (1.0 - AMBIENT) * rays.ray(point).direction.z.abs();
+        assert_color(seen.colors[index], DVec3::splat(light), "headlight");
+    }
+}
+
+#[test]
+fn normals_are_those_of_the_world_and_objects_have_their_palette_colour() {
+    let center = (24 * 64 + 32) as usize;
+    let normal = drawn(gpu(), one_square(Material::default()), &Look { color: ColorBy::Normal, ..look() });
+    assert!((normal.colors[center] - DVec3::new(0.5, 0.5, 1.0)).abs().max_element() < 1.5 / 255.0);
+    let object = drawn(gpu(), one_square(Material::default()), &Look { color: ColorBy::Object, ..look() });
+    let expected = DVec3::from_array(legend_object(0).map(f64::from)) / 255.0;
+    assert!((object.colors[center] - expected).abs().max_element() < 1.0 / 255.0);
+}
+
+#[test]
+fn the_nearer_square_hides_the_farther_in_either_order() {
+    for (first, second) in [(0.5, -0.5), (-0.5, 0.5)] {
+        let at = |z| Node { mesh: Some(0), ..node("square", DVec3::new(0.0, 0.0, z)) };
+        let seen = drawn(gpu(), scene(vec![square()], vec![at(first), at(second)]), &look());
+        let center = (24 * 64 + 32) as usize;
+        let (_, distance) = meets([32.5, 24.5], 0.5);
+        assert!((f64::from(seen.distances[center]) - distance).abs() < 1e-4 * distance);
+    }
+}
+
+#[test]
+fn textures_factors_and_vertex_colours_multiply() {
+    // Left half red, right half green, in sRGB bytes; the top row is v = 0.
+    let image =
+        image::RgbaImage::from_fn(8, 8, |x, _| image::Rgba(if x < 4 { [188, 0, 0, 255] } else { [0, 188, 0, 255] }));
+    let texture = Texture { name: "halves".to_owned(), image: Arc::new(image), wrap: [Wrap::Repeat; 2], nearest: true };
+    let material = Material {
+        base_color: [0.5, 1.0, 1.0, 1.0],
+        base_color_texture: Some(TextureRef { texture: 0, tex_coord: 0 }),
+        ..Material::default()
+    };
+    let mut scene = Scene { textures: vec![texture], ..one_square(material) };
+    scene.meshes[0].primitives[0].colors = vec![Vec4::new(1.0, 0.5, 1.0, 1.0); 4];
+    let seen = drawn(gpu(), scene, &look());
+    let half = octolume::stages::view::palette::linear_from_gamma(188.0 / 255.0);
+    for (index, point) in pixels() {
+        let (place, _) = meets(point, 0.0);
+        if place.abs().max_element() > 0.9 || place.x.abs() < 0.15 {
+            continue;
+        }
+        let vertex_color = 128.0 / 255.0;
+        let expected = if place.x < 0.0 { DVec3::X * 0.5 * half } else { DVec3::Y * vertex_color * half };
+        assert_color(seen.colors[index], expected, "texture");
+    }
+}
+
+#[test]
+fn masks_cut_and_blends_cover_their_share_of_the_pixels() {
+    let covered = |alpha: f32, alpha_mode: AlphaMode| {
+        let seen = drawn(
+            gpu(),
+            one_square(Material { base_color: [1.0, 1.0, 1.0, alpha], alpha_mode, ..Material::default() }),
+            &look(),
+        );
+        let inside: Vec<_> = pixels().filter(|(_, point)| meets(*point, 0.0).0.abs().max_element() < 0.95).collect();
+        let there = inside.iter().filter(|(index, _)| seen.distances[*index] < NO_DEPTH).count();
+        there as f64 / inside.len() as f64
+    };
+    assert_eq!(covered(0.4, AlphaMode::Mask { cutoff: 0.5 }), 0.0);
+    assert_eq!(covered(0.6, AlphaMode::Mask { cutoff: 0.5 }), 1.0);
+    assert_eq!(covered(0.1, AlphaMode::Opaque), 1.0);
+    assert_eq!(covered(0.0, AlphaMode::Blend), 0.0);
+    assert_eq!(covered(1.0, AlphaMode::Blend), 1.0);
+    // 16 thresholds, cut off at the square's border.
+    assert!((covered(0.5, AlphaMode::Blend) - 0.5).abs() < 0.05);
+}
+
+/// The square's upper half follows the second joint.
+fn skinned_square(joint_moves: [DVec3; 2], weights: [[f32; 4]; 4]) -> Scene {
+    let primitive = Primitive { joints: vec![[0, 1, 2, 0]; 4], weights: weights.to_vec(), ..square() };
+    let mesh_node = Node { mesh: Some(0), skin: Some(0), ..node("skinned", DVec3::new(5.0, 0.0, 0.0)) };
+    let mut broken = node("broken", DVec3::ZERO);
+    broken.local = LocalTransform::Matrix(DMat4::from_cols_array(&[f64::NAN; 16]));
+    let nodes = vec![mesh_node, node("joint 0", joint_moves[0]), node("joint 1", joint_moves[1]), broken];
+    let skin = Skin { name: "skin".to_owned(), joints: vec![1, 2, 3], inverse_bind: vec![DMat4::IDENTITY; 3] };
+    Scene { skins: vec![skin], ..scene(vec![primitive], nodes) }
+}
+
+#[test]
+fn skinned_vertices_follow_their_joints_not_their_node() {
+    let move_z = DVec3::new(0.0, 0.0, 0.5);
+    // 0.98 in all: weights count by their share.
+    let seen = drawn(gpu(), skinned_square([move_z; 2], [[0.48, 0.5, 0.0, 0.0]; 4]), &look());
+    let mut inside = 0;
+    for (index, point) in pixels() {
+        let (place, distance) = meets(point, 0.5);
+        if place.truncate().abs().max_element() < 0.99 {
+            inside += 1;
+            assert!((f64::from(seen.distances[index]) - distance).abs() < 1e-4 * distance, "{point:?}");
+        }
+    }
+    assert!(inside > 200, "{inside} pixels inside");
+}
+
+#[test]
+fn each_joint_moves_its_vertices() {
+    // The upper edge leans towards the camera: z = (1 + y) / 2 · 0.5.
+    let (first, second) = ([1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]);
+    let seen =
+        drawn(gpu(), skinned_square([DVec3::ZERO, DVec3::new(0.0, 0.0, 0.5)], [first, first, second, second]), &look());
+    let grid = grid();
+    let rays = PixelRays::new(&camera(), &grid, SIZE_PX);
+    let world_from_grid = grid.grid_from_world().inverse();
+    let mut inside = 0;
+    for (index, point) in pixels().filter(|(index, _)| seen.distances[*index] < NO_DEPTH) {
+        let ray = rays.ray(point);
+        let t = f64::from(seen.distances[index]) - ray.start_cells;
+        let place = world_from_grid.transform_point3(ray.origin + ray.direction * t);
+        assert!((place.z - 0.25 * (1.0 + place.y)).abs() < 1e-4, "{place}");
+        inside += 1;
+    }
+    assert!(inside > 200, "{inside} pixels inside");
+}
+
+#[test]
+fn skins_make_their_pipeline_only_where_there_are_any() {
+    let gpu = open();
+    drawn(&gpu, one_square(Material::default()), &look());
+    let rigid = gpu.counters().pipelines;
+    drawn(&gpu, one_square(Material::default()), &look());
+    assert_eq!(gpu.counters().pipelines, rigid);
+    drawn(&gpu, skinned_square([DVec3::ZERO; 2], [[1.0, 0.0, 0.0, 0.0]; 4]), &look());
+    assert_eq!(gpu.counters().pipelines, rigid + 1);
+}
+
+#[test]
+fn an_object_with_a_broken_matrix_leaves_the_rest_unharmed() {
+    let mut broken = Node { mesh: Some(0), ..node("broken", DVec3::ZERO) };
+    broken.local = LocalTransform::Matrix(DMat4::from_scale(DVec3::splat(f64::INFINITY)));
+    let whole = Node { mesh: Some(0), ..node("whole", DVec3::ZERO) };
+    let seen = drawn(gpu(), scene(vec![square()], vec![broken, whole]), &look());
+    let alone =
+        drawn(gpu(), scene(vec![square()], vec![Node { mesh: Some(0), ..node("whole", DVec3::ZERO) }]), &look());
+    assert_eq!(seen.distances, alone.distances);
+}
+
+#[test]
+fn slices_of_a_draw_make_the_whole_picture() {
+    let turned = |i: u32| {
+        let local = LocalTransform::Trs(Trs { rotation: DQuat::from_rotation_y(f64::from(i)), ..Trs::default() });
+        Node { local, mesh: Some(0), ..node("square", DVec3::ZERO) }
+    };
+    let many = scene(vec![square(); 8], (0..40).map(turned).collect());
+    let whole = drawn(gpu(), many.clone(), &look());
+    let gpu = open();
+    let objects = (0..).zip(many.objects()).collect();
+    let mut mesh = MeshScene::new(Arc::new(many.clone()), objects);
+    while !mesh.upload(&gpu, Duration::ZERO).expect("fits") {}
+    let picture = Picture::new(&gpu, SIZE_PX).expect("fits");
+    let depth = picture::depth_buffer(&gpu, SIZE_PX).expect("fits");
+    let mut recorder = Recorder::default();
+    let (camera, grid, look) = (camera(), grid(), look());
+    let seen = MeshView { camera: &camera, grid: &grid, look: &look };
+    let target = MeshTarget { picture: &picture, depth: &depth };
+    mesh::record(&gpu, &mut recorder, &mut mesh, &many.pose(None, 0.0), seen, target).expect("records");
+    let mut job = Job::new(recorder);
+    while job.advance(&gpu, Duration::from_micros(60)).expect("runs") != octolume::gpu::JobState::Done {
+        std::thread::sleep(Duration::from_micros(100));
+    }
+    assert_eq!(picture.read_distances(&gpu).expect("readable"), whole.distances);
+    assert_eq!(gpu.counters().dispatches["view/mesh"], 1);
+}
