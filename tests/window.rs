@@ -181,7 +181,7 @@ fn the_timeline_moves_the_scene_and_scrubbing_returns_to_the_same_picture() {
     window.set("Time", 0.0);
     assert_eq!(difference(&start, &window.view()), 0, "time 0 looks the same again");
     window.set("Time", 0.4);
-   
+
     assert_eq!(difference(&stepped, &window.view()), 0, "scrubbed to the time stepped to");
     window.choose("Clip", "Rest pose");
     assert_eq!(window.app().settings().motion.clip.as_deref(), Some(""));
