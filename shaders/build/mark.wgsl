@@ -3,7 +3,7 @@
 // kept + clipped = 2^24 a voxel, to the last unit.
 #import shared/threads.wgsl
 #import shared/work_list.wgsl
-#import shared/split.wgsl
+#import shared/world_voxel.wgsl
 #import shared/octree.wgsl
 #import shared/counter.wgsl
 
@@ -34,25 +34,33 @@ fn mark_nearest(q: vec3<i32>) -> u32 {
     return 0u;
 }
 
+// Key bits of the base layer and the one behind it along an axis; 0 weight leaves a layer out.
+fn axis_keys(base: i32, shift: u32) -> vec2<u32> {
+    return vec2<u32>(spread_bits(u32(max(base, 0))), spread_bits(u32(base + 1))) << vec2<u32>(shift);
+}
+
 // Corners that share a word are set by one atomic.
 fn mark_split(q: vec3<i32>) -> u32 {
     let base = base_cell(q);
     let f = fraction(q);
-    var clipped = 0u;
+    let x = axis_keys(base.x, 0u);
+    let y = axis_keys(base.y, 1u);
+    let z = axis_keys(base.z, 2u);
+    // Weight of each layer, 0 outside the grid: a corner's is the product.
+    let near = select(vec3<u32>(FRACTION_ONE) - f, vec3<u32>(0u), base < vec3<i32>(0));
+    let far = select(f, vec3<u32>(0u), base + 1 >= vec3<i32>(grid_cells()));
+    var kept = 0u;
     var word = 0u;
     var mask = 0u;
     for (var corner = 0u; corner < 8u; corner += 1u) {
         let offset = (vec3<u32>(corner) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
-        let weight = split_weight(f, offset);
-        let cell = base + vec3<i32>(offset);
+        let w = select(near, far, offset == vec3<u32>(1u));
+        let weight = w.x * w.y * w.z;
         if weight == 0u {
             continue;
         }
-        if !inside_grid(cell) {
-            clipped += weight;
-            continue;
-        }
-        let key = morton_key(vec3<u32>(cell));
+        kept += weight;
+        let key = x[offset.x] | y[offset.y] | z[offset.z];
         if (key >> 5u) != word {
             if mask != 0u {
                 set_bits(word, mask);
@@ -65,7 +73,7 @@ fn mark_split(q: vec3<i32>) -> u32 {
     if mask != 0u {
         set_bits(word, mask);
     }
-    return clipped;
+    return FULL_WEIGHT - kept;
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)

@@ -43,32 +43,62 @@ fn dilate_x(word: u32, next: u32) -> u32 {
 fn dilate_y(word: u32, next: u32) -> u32 {
     return word | ((word >> 2u) & 0x33333333u) | ((word >> 14u) & 0x0000ccccu) | ((next << 18u) & 0xcccc0000u);
 }
-fn dilate_z(word: u32, next: u32) -> u32 {
-    return word | ((word >> 4u) & 0x0f0f0f0fu) | ((next << 4u) & 0xf0f0f0f0u);
+fn dilate_z(words: vec4<u32>, next: vec4<u32>) -> vec4<u32> {
+    return words | ((words >> vec4(4u)) & vec4(0x0f0f0f0fu)) | ((next << vec4(4u)) & vec4(0xf0f0f0f0u));
 }
 
-// The word of `key`, zero past the grid's end along any axis of `past`.
-fn word_at(key: u32, past: bool) -> u32 {
+// Whether a step from one key to the next has left the grid: keys of 10 bits an axis wrap to a
+// smaller one, shorter ones outgrow their level.
+fn leaves_grid(key: u32, next: u32) -> bool {
+    return next < key || next >= (8u << (3u * params.level));
+}
+
+// Two words along x, dilated in x; a third is their halo.
+fn dilated_row(key: u32, past: bool) -> vec2<u32> {
     if past {
-        return 0u;
+        return vec2<u32>(0u);
     }
-    return child_word(key >> 5u);
+    let k1 = step_x(key);
+    let k2 = step_x(k1);
+    var w1 = 0u;
+    var w2 = 0u;
+    if !leaves_grid(key, k1) {
+        w1 = child_word(k1 >> 5u);
+        if !leaves_grid(k1, k2) {
+            w2 = child_word(k2 >> 5u);
+        }
+    }
+    return vec2<u32>(dilate_x(child_word(key >> 5u), w1), dilate_x(w1, w2));
 }
 
-fn dilated_word(word: u32) -> u32 {
-    let key = word << 5u;
-    let cells = 2u << params.level;
-    let cell = morton_cell(key);
-    let past = cell + vec3<u32>(4u, 4u, 2u) >= vec3<u32>(cells);
-    let kx = step_x(key);
-    let ky = step_y(key);
-    let kz = step_z(key);
-    let kxy = step_y(kx);
-    let row0 = dilate_x(word_at(key, false), word_at(kx, past.x));
-    let row1 = dilate_x(word_at(ky, past.y), word_at(kxy, past.x || past.y));
-    let row2 = dilate_x(word_at(kz, past.z), word_at(step_z(kx), past.x || past.z));
-    let row3 = dilate_x(word_at(step_z(ky), past.y || past.z), word_at(step_z(kxy), any(past)));
-    return dilate_z(dilate_y(row0, row1), dilate_y(row2, row3));
+// Two rows along y, dilated in x and y: words (x, y) = (0, 0), (1, 0), (0, 1), (1, 1) of a layer.
+fn dilated_layer(key: u32, past: bool) -> vec4<u32> {
+    if past {
+        return vec4<u32>(0u);
+    }
+    let k1 = step_y(key);
+    let k2 = step_y(k1);
+    let past1 = leaves_grid(key, k1);
+    let r0 = dilated_row(key, false);
+    let r1 = dilated_row(k1, past1);
+    let r2 = dilated_row(k2, past1 || leaves_grid(k1, k2));
+    return vec4<u32>(dilate_y(r0.x, r1.x), dilate_y(r0.y, r1.y), dilate_y(r1.x, r2.x), dilate_y(r1.y, r2.y));
+}
+
+// The dilated words of the two layers, lower and upper, from `key` on.
+struct DilatedWords {
+    lower: vec4<u32>,
+    upper: vec4<u32>,
+}
+
+fn dilated_words(key: u32) -> DilatedWords {
+    let k1 = step_z(key);
+    let k2 = step_z(k1);
+    let past1 = leaves_grid(key, k1);
+    let l0 = dilated_layer(key, false);
+    let l1 = dilated_layer(k1, past1);
+    let l2 = dilated_layer(k2, past1 || leaves_grid(k1, k2));
+    return DilatedWords(dilate_z(l0, l1), dilate_z(l1, l2));
 }
 
 // Bit i: whether byte i of the word has any bit.
@@ -89,6 +119,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     let child_words = min(8u, max(1u, (8u << (3u * params.level)) >> 5u));
     let has_blocks = params.level >= octree.dense_level;
     let children_have_blocks = params.level + 1u < octree.depth;
+    var dilated = DilatedWords();
+    if has_blocks && DUMMIES {
+        dilated = dilated_words(thread << 8u);
+    }
     var occupied_bits = 0u;
     var block_bits = 0u;
     var leaves = 0u;
@@ -100,10 +134,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
             leaves += countOneBits(children);
         }
         if has_blocks {
-            var below = children;
-            if DUMMIES {
-                below = dilated_word(word);
-            }
+            // Of a word's number, bit 0 is its z, bit 1 its x, bit 2 its y.
+            var below = children | select(dilated.lower[i >> 1u], dilated.upper[i >> 1u], (i & 1u) == 1u);
             if children_have_blocks {
                 below |= blocks[octree.levels[params.level + 1u].blocks_word + word];
             }

@@ -28,21 +28,34 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     let block_cell = vec3<i32>(morton_cell(key));
     var l0 = empty_leaf(); var l1 = empty_leaf(); var l2 = empty_leaf(); var l3 = empty_leaf();
     var l4 = empty_leaf(); var l5 = empty_leaf(); var l6 = empty_leaf(); var l7 = empty_leaf();
+    // One walk over all sources, so that neighbouring threads wait for the longest walk, not for the
+    // longest range of each source in turn.
+    var ranges: array<vec2<u32>, 8>;
     var fragments = 0u;
+    var sources = 0u;
     for (var source = 0u; source < source_count(); source += 1u) {
         let range = source_range(block_cell, source);
-        fragments += range.y - range.x;
-        if fragments > MAX_FRAGMENTS {
-            break;
+        if range.x < range.y {
+            ranges[sources] = range;
+            sources += 1u;
+            fragments += range.y - range.x;
         }
-        for (var i = range.x; i < range.y; i += 1u) {
-            let w = block_weights(sorted_voxels[i].xy, block_cell);
+    }
+    if fragments <= MAX_FRAGMENTS {
+        var range = vec2<u32>(0u);
+        for (var walked = 0u; walked < fragments; walked += 1u) {
+            if range.x == range.y {
+                sources -= 1u;
+                range = ranges[sources];
+            }
+            let voxel = sorted_voxels[range.x];
+            range.x += 1u;
+            let w = block_weights(voxel.xy, block_cell);
             if (w.x.x | w.x.y) == 0u || (w.y.x | w.y.y) == 0u || (w.z.x | w.z.y) == 0u {
                 continue;
             }
-            let packed = sorted_voxels[i].zw;
-            let color = vec4<u32>(unpack_rgb8(packed.y), 1u);
-            let normal = unpack_biased(packed.x);
+            let color = vec4<u32>(unpack_rgb8(voxel.w), 1u);
+            let normal = unpack_biased(voxel.z);
             let xy = vec4<u32>(w.x * w.y.x, w.x * w.y.y);
             l0 = add_fragment(l0, xy.x * w.z.x, color, normal);
             l1 = add_fragment(l1, xy.y * w.z.x, color, normal);

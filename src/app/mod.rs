@@ -1,10 +1,240 @@
-//! The window.
+//! The window: panels around a picture, over the same engine and settings as the command line.
+//!
+//! ```text
+//! input ─► panels, shortcuts, drops ─► Command ─► Settings ─► Stage ─► Engine ─► picture
+//!                                                   ▲
+//!                         Loader, ExactJob ─────────┘  (threads of their own)
+//! ```
+//!
+//! A frame of the window never waits: the engine gets a slice of GPU time, files and voxelization
+//! have threads. A still scene asks for no repaint.
 
-/// Opens the window on a scene.
-pub fn run(
-    _scene: &std::path::Path,
-    _settings: crate::settings::Settings,
-    _adapter: Option<&str>,
-) -> anyhow::Result<()> {
-    anyhow::bail!("no window")
+mod background;
+mod commands;
+mod desk;
+mod device;
+mod exact_job;
+mod history;
+mod journal;
+mod latency;
+mod layout;
+mod legend;
+mod loader;
+mod panels;
+mod picture;
+mod playback;
+mod screenshots;
+mod shortcuts;
+mod stage;
+mod theme;
+mod viewport;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use anyhow::anyhow;
+
+use self::desk::Desk;
+use self::exact_job::ExactJob;
+use self::journal::{Journal, Severity};
+pub use self::latency::Latency;
+use self::loader::{Loader, Ready, same_voxels};
+use self::playback::Playback;
+use self::screenshots::Screenshots;
+use self::stage::Stage;
+use self::viewport::Viewport;
+use crate::gpu::Gpu;
+use crate::prepare::Prepared;
+use crate::scene::Clip;
+use crate::scene::camera::camera_from_scene_camera;
+use crate::settings::{MotionSettings, Settings};
+
+/// How often a progress bar is redrawn.
+const PROGRESS_STEP: Duration = Duration::from_millis(100);
+
+/// Opens the window on a file, or on a built-in scene by its name, and returns when it is closed.
+/// Without a display, or a GPU for it, the error is one sentence.
+pub fn run(scene: &Path, settings: Settings, adapter: Option<&str>) -> anyhow::Result<()> {
+    if !device::has_display() {
+        return Err(anyhow!("there is no display to open a window on; the subcommands work without one"));
+    }
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default().with_inner_size([1440.0, 900.0]).with_min_inner_size([640.0, 400.0]),
+        renderer: eframe::Renderer::Wgpu,
+        wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: device::setup(adapter), ..Default::default() },
+        ..Default::default()
+    };
+    let scene = scene.to_owned();
+    let create: eframe::AppCreator<'_> = Box::new(move |context| Ok(Box::new(App::new(context, &scene, settings)?)));
+    eframe::run_native("Octolume", options, create).map_err(|error| anyhow!("no window can be opened: {error}"))
+}
+
+/// The whole window.
+pub struct App {
+    settings: Settings,
+    scene: Option<Ready>,
+    playback: Playback,
+    stage: Stage,
+    loader: Loader,
+    exact: ExactJob,
+    viewport: Viewport,
+    screenshots: Screenshots,
+    desk: Desk,
+    journal: Journal,
+    latency: Latency,
+    render: egui_wgpu::RenderState,
+    /// When the camera was moved last, on the window's clock.
+    moved_at_secs: Option<f64>,
+}
+
+impl App {
+    /// Takes the window's device, and starts to open the scene. Fails without a GPU.
+    pub fn new(
+        context: &eframe::CreationContext<'_>,
+        scene: &Path,
+        settings: Settings,
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        let render = context.wgpu_render_state.clone().ok_or("the window has no GPU")?;
+        let gpu = Arc::new(Gpu::from_wgpu(&render.adapter, render.device.clone(), render.queue.clone()));
+        theme::apply(&context.egui_ctx);
+        let mut app = Self {
+            settings,
+            scene: None,
+            playback: Playback::default(),
+            stage: Stage::new(Arc::clone(&gpu)),
+            loader: Loader::default(),
+            exact: ExactJob::default(),
+            viewport: Viewport::default(),
+            screenshots: Screenshots::default(),
+            desk: Desk::default(),
+            journal: Journal::default(),
+            latency: Latency::new(render.device.clone()),
+            render,
+            moved_at_secs: None,
+        };
+        gpu.warnings().into_iter().for_each(|warning| app.journal.tell(Severity::Warning, warning));
+        app.open(&context.egui_ctx, scene.to_owned());
+        Ok(app)
+    }
+
+    /// How long the window takes from an input to its frame.
+    pub fn latency(&self) -> &Latency {
+        &self.latency
+    }
+
+    /// What the engine runs on.
+    pub fn gpu(&self) -> &Gpu {
+        self.stage.engine.gpu()
+    }
+
+    /// What the person has set.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Nothing is being opened, voxelized, built or drawn.
+    pub fn is_settled(&self) -> bool {
+        let loading = self.loader.progress().is_some() || self.exact.fraction().is_some();
+        !loading && self.stage.working().is_none() && !self.screenshots.is_busy()
+    }
+
+    fn prepared(&self) -> Option<&Arc<Prepared>> {
+        self.scene.as_ref().map(|ready| &ready.prepared)
+    }
+
+    /// The clip that the settings name; `None` for the rest pose.
+    fn clip(&self) -> Option<&Clip> {
+        let prepared = self.prepared()?;
+        let index = prepared.clip_index(&self.settings.motion).ok()??;
+        prepared.scene.clips.get(index)
+    }
+
+    fn clip_secs(&self) -> f64 {
+        self.clip().map_or(0.0, |clip| clip.duration_secs)
+    }
+
+    fn open(&mut self, ctx: &egui::Context, path: PathBuf) {
+        // A span, a pose and a camera of one scene mean nothing in another.
+        if self.scene.is_some() {
+            self.settings.discretization.span = None;
+        }
+        self.loader.open(ctx, &path, self.settings.discretization);
+        self.desk.path = path.display().to_string();
+    }
+
+    fn cancel_loading(&mut self) {
+        self.loader.cancel();
+        self.keep_open_scene();
+        self.journal.note(Severity::Info, "Cancelled.");
+    }
+
+    /// What could not be made is not asked for again.
+    fn keep_open_scene(&mut self) {
+        if let Some(ready) = &self.scene {
+            let made = ready.discretization;
+            let wanted = &mut self.settings.discretization;
+            (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);
+        }
+    }
+
+    /// Takes over what threads have finished.
+    fn collect(&mut self, ctx: &egui::Context) {
+        match self.loader.poll() {
+            Some(Ok(ready)) => self.show_scene(ctx, ready),
+            Some(Err(cause)) => {
+                self.keep_open_scene();
+                self.journal.tell(Severity::Error, cause);
+            }
+            None => {}
+        }
+        for written in self.screenshots.poll() {
+            match written {
+                Ok(file) => self.journal.tell(Severity::Info, format!("Saved {}", file.display())),
+                Err(cause) => self.journal.tell(Severity::Error, cause),
+            }
+        }
+        let wanted = self.settings.discretization;
+        match &self.scene {
+            Some(ready) if self.loader.is_opening() || same_voxels(&ready.discretization, &wanted) => {}
+            Some(ready) => self.loader.discretize(ctx, &ready.prepared, wanted),
+            None => {}
+        }
+    }
+
+    fn show_scene(&mut self, ctx: &egui::Context, ready: Ready) {
+        let prepared = &ready.prepared;
+        if ready.is_new {
+            if self.scene.is_some() {
+                self.settings.motion = MotionSettings::default();
+                self.settings.look.camera = None;
+                self.playback.pause();
+            }
+            let name = &prepared.scene.name;
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("Octolume — {name}")));
+            let count = panels::grouped(prepared.voxel_count());
+            self.journal
+                .note(Severity::Info, format!("Opened {name}: {count} voxels in {:.0} ms.", prepared.voxelize_ms));
+            for warning in &prepared.warnings {
+                self.journal.note(Severity::Warning, warning);
+            }
+            let source = prepared.scene.source.clone().unwrap_or_else(|| PathBuf::from(name));
+            self.desk.remember(source);
+        }
+        self.stage.set_prepared(prepared);
+        let opens_with_its_camera = ready.is_new && self.settings.look.camera.is_none();
+        self.scene = Some(ready);
+        if opens_with_its_camera {
+            self.look_through(0);
+        }
+    }
+
+    /// Takes a camera of the file, if it has this one.
+    fn look_through(&mut self, camera: usize) {
+        let Some(prepared) = self.prepared() else { return };
+        let Ok(pose) = prepared.pose(&self.settings.motion) else { return };
+        if let Some(camera) = camera_from_scene_camera(&prepared.scene, camera, &pose) {
+            self.settings.look.camera = Some(camera);
+        }
+    }
 }

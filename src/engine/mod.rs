@@ -21,11 +21,12 @@ use std::time::Duration;
 
 use crate::data::octree::Slot;
 use crate::data::pages::SegmentOrder;
-use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, KernelTiming};
+use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, GpuTexture, KernelTiming};
 use crate::plan::{self, Changes, FramePlan, SceneFacts};
 use crate::prepare::{ExactVoxels, FrameMatrices, MotionError, Prepared};
 use crate::settings::{Filter, Look, Settings, View};
 use crate::stages::view::Picture;
+use crate::stages::view::mesh_scene::MeshScene;
 
 pub use built_octree::BuiltOctree;
 use picture::ExactMasks;
@@ -69,6 +70,8 @@ pub struct Engine {
     comparison: steps::Comparison,
     exact_masks: ExactMasks,
     picture: Option<Picture>,
+    mesh: Option<MeshScene>,
+    mesh_depth: Option<GpuTexture>,
     timings: steps::FrameTimings,
 }
 
@@ -106,6 +109,8 @@ impl Engine {
         Self {
             exact_masks: ExactMasks::default(),
             picture: None,
+            mesh: None,
+            mesh_depth: None,
             gpu,
             segment_order,
             prepared: None,
@@ -139,6 +144,7 @@ impl Engine {
         self.exact = None;
         self.exact_bits = None;
         self.exact_masks = ExactMasks::default();
+        self.mesh = None;
         self.comparison = steps::Comparison::default();
         self.timings = steps::FrameTimings::default();
         self.prepared = prepared;

@@ -1,5 +1,8 @@
 //! The picture of a frame: which view draws it, from which camera.
 
+use std::sync::Arc;
+use std::time::Duration;
+
 use super::{Engine, EngineError, Wanted};
 use crate::data::octree::{OctreeParams, Slot};
 use crate::gpu::{GpuError, GpuTexture, Recorder};
@@ -10,6 +13,9 @@ use crate::stages::build::reduce::{self, Masks};
 use crate::stages::view::camera::PixelRays;
 use crate::stages::view::ghost::{self, LeafSet};
 use crate::stages::view::march::{self, MarchedOctree};
+use crate::stages::view::mesh::{self, MeshTarget, MeshView};
+use crate::stages::view::mesh_scene::MeshScene;
+use crate::stages::view::picture::depth_buffer;
 use crate::stages::view::{GHOST_COLORS, Palette, Picture, ViewParams, shown_color};
 
 /// The masks above the exact leaves. Blocks and counters are by-products nobody reads.
@@ -60,9 +66,37 @@ impl Engine {
                 let octree = self.shown.params;
                 ghost::record(&self.gpu, &mut frame, &octree, (&moved, &exact), (&view, &GHOST_COLORS), &picture);
             }
-            View::Mesh => {}
+            View::Mesh => self.record_mesh(&mut frame, wanted, &picture)?,
         }
         Ok(frame)
+    }
+
+    fn record_mesh(&mut self, frame: &mut Recorder, wanted: &Wanted, picture: &Picture) -> Result<(), EngineError> {
+        let prepared = self.prepared.clone().ok_or(EngineError::NoScene)?;
+        let camera = self.camera(wanted);
+        let pose = prepared.pose(&wanted.settings.motion)?;
+        let depth = self.mesh_depth(wanted.size_px)?;
+        let missing = || GpuError::Missing { label: "mesh vertices".to_owned() };
+        let mesh = self.mesh.as_mut().ok_or_else(missing)?;
+        let seen = MeshView { camera: &camera, grid: &prepared.grid, look: &wanted.settings.look };
+        Ok(mesh::record(&self.gpu, frame, mesh, &pose, seen, MeshTarget { picture, depth: &depth })?)
+    }
+
+    /// Uploads what the mesh view draws, for about `budget`; says whether all is there.
+    pub(super) fn upload_mesh(&mut self, budget: Duration) -> Result<bool, EngineError> {
+        let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
+        let objects = || prepared.objects.iter().zip(0..).map(|(object, number)| (number, object.object.clone()));
+        let mesh = self.mesh.get_or_insert_with(|| MeshScene::new(Arc::clone(&prepared.scene), objects().collect()));
+        Ok(mesh.upload(&self.gpu, budget)?)
+    }
+
+    fn mesh_depth(&mut self, size_px: [u32; 2]) -> Result<GpuTexture, GpuError> {
+        if let Some(depth) = &self.mesh_depth
+            && depth.size_px() == size_px
+        {
+            return Ok(depth.clone());
+        }
+        Ok(self.mesh_depth.insert(depth_buffer(&self.gpu, size_px)?).clone())
     }
 
     fn marched_octree(&self) -> Result<MarchedOctree, GpuError> {

@@ -32,6 +32,7 @@ pub enum Step {
     Root(Which),
     NumberObjects,
     ReduceExact,
+    UploadMesh,
     Picture,
     Compare(Which),
     /// Brings holes and spill back.
@@ -56,6 +57,9 @@ pub fn of_plan(plan: &FramePlan) -> VecDeque<Step> {
     }
     if plan.runs(Pass::ReduceExact) {
         steps.push_back(Step::ReduceExact);
+    }
+    if plan.runs(Pass::DrawMesh) {
+        steps.push_back(Step::UploadMesh);
     }
     if [Pass::MarchVoxels, Pass::DrawMesh, Pass::MarchGhost].into_iter().any(|pass| plan.runs(pass)) {
         steps.push_back(Step::Picture);
@@ -129,6 +133,11 @@ impl Engine {
     pub(super) fn run_slice(&mut self, budget: Duration) -> Result<EngineState, EngineError> {
         let Some(mut running) = self.running.take() else { return Ok(EngineState::Idle) };
         let Some(&step) = running.steps.front() else { return Ok(EngineState::Idle) };
+        if step == Step::UploadMesh && !self.upload_mesh(budget)? {
+            let state = running.state(0.0);
+            self.running = Some(running);
+            return Ok(state);
+        }
         let work = match running.work.take() {
             Some(work) => Some(work),
             None => self.start(step, &running)?,
@@ -171,6 +180,8 @@ impl Engine {
                 self.upload_caches()?;
                 Ok(None)
             }
+            // Uploaded slice by slice before it gets here.
+            Step::UploadMesh => Ok(None),
             Step::Move => job(self.record_move(running)?),
             Step::Masks(which) => job(self.record_masks(which, &running.wanted)?),
             Step::Nodes(which) => {
@@ -308,7 +319,7 @@ impl Engine {
         let took = self.gpu.take_timings();
         let discretization = &wanted.settings.discretization;
         match step {
-            Step::UploadCaches => {}
+            Step::UploadCaches | Step::UploadMesh => {}
             Step::Move => {
                 self.done.moved = true;
                 self.timings.moved = took;

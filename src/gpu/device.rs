@@ -21,17 +21,22 @@ impl Gpu {
     /// `adapter_name` (case does not matter).
     pub fn headless(adapter_name: Option<&str>) -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-        let mut adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
-        adapters.retain(|adapter| {
-            adapter.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS)
-        });
-        adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
-        let adapter = choose(&adapters, adapter_name)?;
+        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
+        let adapter = &Self::choose_adapter(adapters, adapter_name)?;
         let descriptor = Self::device_descriptor(adapter);
         let opened = pollster::block_on(adapter.request_device(&descriptor));
         let (device, queue) =
             opened.map_err(|error| GpuError::NoDevice { adapter: adapter.get_info().name, cause: causes(&error) })?;
         Ok(Self::from_wgpu(adapter, device, queue))
+    }
+
+    /// The best of these adapters, or the first whose name contains `name` (case does not matter).
+    pub fn choose_adapter(mut adapters: Vec<wgpu::Adapter>, name: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
+        adapters.retain(|adapter| {
+            adapter.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS)
+        });
+        adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
+        choose(&adapters, name).cloned()
     }
 
     /// Takes over a device that somebody else opened, best with [`Gpu::device_descriptor`].

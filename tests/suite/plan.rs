@@ -77,7 +77,8 @@ fn every_pass_has_one_row_with_a_reason() {
 #[test]
 fn the_first_frame_runs_what_the_scene_has() {
     let rigid = plan(&RIGID, &FIRST, &Settings::default());
-    let expected = [&[Pass::UploadCaches, Pass::ObjectIo, Pass::TransformRigid, Pass::MarchVoxels], &BUILD[..]].concat();
+    let expected =
+        [&[Pass::UploadCaches, Pass::ObjectIo, Pass::TransformRigid, Pass::MarchVoxels], &BUILD[..]].concat();
     assert_eq!(running(&rigid), with(&expected));
     assert_eq!(reason(&rigid, Pass::TransformSkinned), (State::Skip, "no skin in the grid"));
     let skinned = plan(&SKINNED, &FIRST, &Settings::default());
@@ -135,7 +136,10 @@ fn objects_are_numbered_only_when_looked_at() {
     let mut settings = Settings::default();
     assert_eq!(reason(&plan(&RIGID, &FIRST, &settings), Pass::NumberObjects).0, State::Skip);
     settings.look.color = ColorBy::Object;
-    assert_eq!(running(&plan(&RIGID, &Changes { view: true, ..STILL }, &settings)), [Pass::NumberObjects, Pass::MarchVoxels]);
+    assert_eq!(
+        running(&plan(&RIGID, &Changes { view: true, ..STILL }, &settings)),
+        [Pass::NumberObjects, Pass::MarchVoxels]
+    );
 }
 
 #[test]
@@ -223,7 +227,8 @@ impl Counted {
 }
 
 fn prepared(scene: Scene, settings: &Settings) -> Prepared {
-    prepare(Arc::new(scene), &settings.discretization, None, &Progress::default()).unwrap_or_else(|error| panic!("{error}"))
+    prepare(Arc::new(scene), &settings.discretization, None, &Progress::default())
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn assert_nothing_made(made: &Counters) {
@@ -264,7 +269,12 @@ fn rigid_motion_never_makes_a_skinning_pipeline_or_joint_buffer() {
 
 #[test]
 fn a_skin_is_moved_by_the_skinning_kernel_alone() {
-    let scene = skinned_scene([0, 1, 0, 0], [0.5, 0.5, 0.0, 0.0], &[Trs::default(), at(0.5, 0.0, 0.0)], &[glam::DMat4::IDENTITY; 2]);
+    let scene = skinned_scene(
+        [0, 1, 0, 0],
+        [0.5, 0.5, 0.0, 0.0],
+        &[Trs::default(), at(0.5, 0.0, 0.0)],
+        &[glam::DMat4::IDENTITY; 2],
+    );
     let mut counted = Counted::new(scene);
     let (plan, _) = counted.frame();
     assert!(plan.runs(Pass::TransformSkinned) && !plan.runs(Pass::TransformRigid));

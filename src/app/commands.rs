@@ -1,0 +1,84 @@
+//! Everything the window can be told to do. Panels, shortcuts, drops and scripts all end here.
+
+use std::path::PathBuf;
+
+use super::App;
+use super::playback;
+use crate::scene::OrbitCamera;
+use crate::settings::{Discretization, Look, MotionSettings};
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Opens a file, or a built-in scene by its name.
+    Open(PathBuf),
+    /// Lets the desktop's dialog choose one.
+    ChooseFile,
+    CancelLoading,
+    Discretize(Discretization),
+    Look(Look),
+    /// Another clip or turn, or a scrub of the timeline.
+    Move(MotionSettings),
+    TogglePlaying,
+    /// Pauses, and goes by so many steps of 1/30 s.
+    Step(i32),
+    Loop(bool),
+    Speed(f64),
+    /// The person moves the camera: coarse until it rests.
+    Camera(OrbitCamera),
+    /// A camera of the file, as it is posed now.
+    SceneCamera(usize),
+    /// Back to the camera that frames everything.
+    FrameAll,
+    SaveScreenshot,
+    ClearLog,
+}
+
+impl App {
+    /// Carries out one command. `clock_secs` is the window's clock.
+    pub(super) fn apply(&mut self, ctx: &egui::Context, command: Command, clock_secs: f64) {
+        match command {
+            Command::Open(path) => self.open(ctx, path),
+            Command::ChooseFile => self.desk.choose_file(ctx),
+            Command::CancelLoading => self.cancel_loading(),
+            Command::Discretize(discretization) => self.settings.discretization = discretization,
+            Command::Look(look) => self.settings.look = look,
+            Command::Camera(camera) => {
+                self.settings.look.camera = Some(camera);
+                self.moved_at_secs = Some(clock_secs);
+            }
+            Command::SceneCamera(camera) => self.look_through(camera),
+            Command::FrameAll => self.settings.look.camera = None,
+            Command::Move(motion) => {
+                self.settings.motion = motion;
+                self.restart_clock(clock_secs);
+            }
+            Command::TogglePlaying if self.playback.is_playing() => self.playback.pause(),
+            Command::TogglePlaying => {
+                self.playback.play(clock_secs, self.settings.motion.time_secs, self.clip_secs());
+            }
+            Command::Step(steps) => {
+                self.playback.pause();
+                let time_secs = self.settings.motion.time_secs;
+                self.settings.motion.time_secs =
+                    playback::stepped(time_secs, steps, self.clip_secs(), self.playback.looped);
+            }
+            Command::Loop(looped) => {
+                self.playback.looped = looped;
+                self.restart_clock(clock_secs);
+            }
+            Command::Speed(speed) => {
+                self.playback.speed = speed;
+                self.restart_clock(clock_secs);
+            }
+            Command::SaveScreenshot => self.screenshots.want(),
+            Command::ClearLog => self.journal.clear(),
+        }
+    }
+
+    /// Goes on playing from the time that is set now.
+    fn restart_clock(&mut self, clock_secs: f64) {
+        if self.playback.is_playing() {
+            self.playback.play(clock_secs, self.settings.motion.time_secs, self.clip_secs());
+        }
+    }
+}

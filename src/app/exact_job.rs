@@ -1,0 +1,139 @@
+//! The exact voxelization behind ghost and accuracy, on a thread of its own.
+//!
+//! Exact and moved voxels must show one pose. Where the exact set takes a blink, the picture waits
+//! for it and follows the timeline pose by pose; where it takes longer, the moved voxels go ahead
+//! alone and the exact set joins them when the pose rests.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::background::{Background, Outcome};
+use crate::prepare::{ExactError, ExactVoxels, Prepared};
+use crate::settings::MotionSettings;
+
+/// An exact set that takes no longer than this is waited for.
+const BLINK: Duration = Duration::from_millis(250);
+/// A pose that stays this long rests.
+pub const REST: Duration = Duration::from_millis(200);
+
+#[derive(Default)]
+pub struct ExactJob {
+    running: Option<Running>,
+    /// The pose of the set that the engine has.
+    shown: Option<MotionSettings>,
+    scene: Option<Arc<Prepared>>,
+    /// How long the last set took; zero before the first.
+    took: Duration,
+    wanted: Option<MotionSettings>,
+    wanted_since: Option<Instant>,
+}
+
+struct Running {
+    motion: MotionSettings,
+    started: Instant,
+    work: Background<Result<ExactVoxels, ExactError>>,
+}
+
+/// What a frame must tell the engine.
+#[derive(Debug, Default)]
+pub struct ExactUpdate {
+    /// The pose to show.
+    pub motion: MotionSettings,
+    /// `Some(None)`: the engine's set is of another pose now.
+    pub exact: Option<Option<Arc<ExactVoxels>>>,
+    /// What went wrong or was left out, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+impl ExactJob {
+    /// Once a frame. `wanted`: the pose the person asked for, `None` where nobody looks at exact voxels.
+    pub fn update(
+        &mut self,
+        ctx: &egui::Context,
+        scene: &Arc<Prepared>,
+        motion: &MotionSettings,
+        looked_at: bool,
+    ) -> ExactUpdate {
+        let mut update = ExactUpdate { motion: motion.clone(), ..ExactUpdate::default() };
+        let same_scene = self.scene.as_ref().is_some_and(|old| Arc::ptr_eq(old, scene));
+        if !looked_at || !same_scene {
+            update.exact = self.shown.is_some().then_some(None);
+            *self = Self { took: if same_scene { self.took } else { Duration::ZERO }, ..Self::default() };
+            self.scene = Some(Arc::clone(scene));
+            if !looked_at {
+                return update;
+            }
+        }
+        if self.wanted.as_ref() != Some(motion) {
+            (self.wanted, self.wanted_since) = (Some(motion.clone()), Some(Instant::now()));
+        }
+        self.collect(&mut update);
+        self.start(ctx, motion);
+        self.choose_pose(&mut update);
+        update
+    }
+
+    /// Whether a set is being made.
+    pub fn fraction(&self) -> Option<f32> {
+        self.running.as_ref().map(|running| running.work.fraction())
+    }
+
+    fn follows(&self) -> bool {
+        self.took <= BLINK
+    }
+
+    fn collect(&mut self, update: &mut ExactUpdate) {
+        let Some(running) = &self.running else { return };
+        let outcome = running.work.poll();
+        if matches!(outcome, Outcome::Running) {
+            let stale = self.wanted.as_ref() != Some(&running.motion);
+            if stale && running.started.elapsed() > BLINK {
+                self.took = running.started.elapsed();
+                self.running = None;
+            }
+            return;
+        }
+        let Some(running) = self.running.take() else { return };
+        self.took = running.started.elapsed();
+        // A failed pose counts as shown: without an exact set, and not tried again.
+        self.shown = Some(running.motion);
+        update.exact = Some(None);
+        match outcome {
+            Outcome::Done(Ok(exact)) => {
+                update.warnings.clone_from(&exact.warnings);
+                update.exact = Some(Some(Arc::new(exact)));
+            }
+            Outcome::Done(Err(ExactError::Motion(error))) => update.warnings.push(error.to_string()),
+            Outcome::Died => update.warnings.push("the exact voxelization ended unexpectedly".to_owned()),
+            Outcome::Done(Err(ExactError::Cancelled(_))) | Outcome::Running => {}
+        }
+    }
+
+    fn start(&mut self, ctx: &egui::Context, motion: &MotionSettings) {
+        let Some(scene) = &self.scene else { return };
+        if self.running.is_some() || self.shown.as_ref() == Some(motion) {
+            return;
+        }
+        let rested = self.wanted_since.map_or(Duration::ZERO, |since| since.elapsed());
+        if !self.follows() && rested < REST {
+            ctx.request_repaint_after(REST - rested);
+            return;
+        }
+        let (scene, posed) = (Arc::clone(scene), motion.clone());
+        let work = Background::start(ctx, move |progress| scene.exact(&posed, progress));
+        self.running = Some(Running { motion: motion.clone(), started: Instant::now(), work });
+    }
+
+    fn choose_pose(&mut self, update: &mut ExactUpdate) {
+        let Some(shown) = &self.shown else { return };
+        if *shown == update.motion {
+            return;
+        }
+        if self.follows() {
+            update.motion = shown.clone();
+        } else {
+            self.shown = None;
+            update.exact = Some(None);
+        }
+    }
+}

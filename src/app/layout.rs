@@ -1,0 +1,126 @@
+//! A frame of the window: panels from the outside in, the picture in the room that is left.
+
+use std::time::Instant;
+
+use egui::{Panel, ScrollArea, TextEdit, Ui};
+
+use super::commands::Command;
+use super::panels::top_bar::TopBar;
+use super::panels::{self, section};
+use super::{App, shortcuts, theme};
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let started = Instant::now();
+        let ctx = ui.ctx().clone();
+        let clock_secs = ui.input(|input| input.time);
+        self.latency.frame(ui);
+        self.collect(&ctx);
+        let mut commands = shortcuts::commands(ui);
+        commands.extend(self.desk.opened(&ctx));
+        commands.extend(self.panels_ui(ui));
+        self.apply_all(&ctx, commands, clock_secs);
+        if let Some(time_secs) = self.playback.advance(clock_secs, self.clip_secs()) {
+            self.settings.motion.time_secs = time_secs;
+        }
+        egui::CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, clock_secs));
+        self.journal.show_toasts(&ctx);
+        if self.wake_again(&ctx, clock_secs) {
+            self.latency.continues(started);
+        }
+    }
+
+    fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
+        theme::BACKGROUND.to_normalized_gamma_f32()
+    }
+}
+
+impl App {
+    fn apply_all(&mut self, ctx: &egui::Context, commands: Vec<Command>, clock_secs: f64) {
+        commands.into_iter().for_each(|command| self.apply(ctx, command, clock_secs));
+    }
+
+    fn panels_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        Panel::top("top bar").exact_size(34.0).show(ui, |ui| commands.extend(self.top_bar_ui(ui)));
+        Panel::bottom("timeline").exact_size(36.0).show(ui, |ui| commands.extend(self.timeline_ui(ui)));
+        let mut open = self.desk.unfolded.controls;
+        Panel::left("controls").default_size(292.0).size_range(250.0..=480.0).show_collapsible(ui, &mut open, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| commands.extend(self.controls_ui(ui)));
+        });
+        self.desk.unfolded.controls = open;
+        let mut open = self.desk.unfolded.measurements;
+        Panel::right("measurements").default_size(350.0).size_range(260.0..=620.0).show_collapsible(
+            ui,
+            &mut open,
+            |ui| {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| commands.extend(self.measurements_ui(ui)));
+            },
+        );
+        self.desk.unfolded.measurements = open;
+        commands
+    }
+
+    fn top_bar_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+        let bar = TopBar {
+            scene: self.scene.as_ref().map(|ready| ready.prepared.scene.name.as_str()),
+            loading: self.loader.progress(),
+            frame: self.stage.working(),
+            exact: self.exact.fraction(),
+            adapter: &self.stage.engine.gpu().info.name,
+        };
+        panels::top_bar::ui(ui, &bar, &mut self.desk.unfolded)
+    }
+
+    fn timeline_ui(&self, ui: &mut Ui) -> Vec<Command> {
+        let clips = self.prepared().map_or(&[][..], |prepared| &prepared.scene.clips);
+        panels::timeline::ui(ui, clips, self.clip(), &self.settings.motion, &self.playback)
+    }
+
+    fn controls_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+        let settings = &self.settings;
+        let grid = self.scene.as_ref().map(|ready| &ready.prepared.grid);
+        let mut commands = section(ui, "Scene", true, |ui| {
+            let scene = self.scene.as_ref().map(|ready| &*ready.prepared);
+            panels::scene::ui(ui, scene, &mut self.desk.path, &self.desk.recent)
+        });
+        commands.extend(section(ui, "Discretization", true, |ui| {
+            panels::discretization::ui(ui, &settings.discretization, grid.map(|grid| grid.span))
+        }));
+        commands.extend(section(ui, "Filter", true, |ui| {
+            panels::filter::ui(ui, settings, self.stage.engine.accuracy().as_ref())
+        }));
+        commands.extend(section(ui, "View", true, |ui| {
+            let cameras = self.scene.as_ref().map_or(&[][..], |ready| &ready.prepared.scene.cameras);
+            let depth = grid.map_or(settings.discretization.depth(), |grid| grid.depth);
+            let commands = panels::view::ui(ui, &settings.look, depth, cameras);
+            panels::control(ui, "Save to", "Folder that screenshots are written to.", |ui| {
+                ui.add(TextEdit::singleline(&mut self.screenshots.folder).desired_width(f32::INFINITY))
+            });
+            commands
+        }));
+        commands
+    }
+
+    fn measurements_ui(&self, ui: &mut Ui) -> Vec<Command> {
+        let stage = &self.stage;
+        let mut commands = section(ui, "Timings", true, |ui| {
+            panels::timings::ui(ui, &stage.timings, &stage.history, &self.latency);
+            Vec::new()
+        });
+        commands.extend(section(ui, "Octree", true, |ui| {
+            panels::octree::ui(ui, stage.engine.octree_report().as_ref(), self.settings.look.level);
+            Vec::new()
+        }));
+        commands.extend(section(ui, "Frame plan", true, |ui| {
+            panels::plan::ui(ui, &stage.plan);
+            Vec::new()
+        }));
+        commands.extend(section(ui, "Memory", false, |ui| {
+            panels::memory::ui(ui, &stage.engine.memory());
+            Vec::new()
+        }));
+        commands.extend(section(ui, "Log", false, |ui| panels::log::ui(ui, self.journal.entries())));
+        commands
+    }
+}

@@ -1,0 +1,129 @@
+//! Opens scenes and voxelizes them while the window goes on showing the scene before. One job at a
+//! time: a new one cancels the old one.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::background::{Background, Outcome};
+use crate::prepare::{PrepareError, Prepared, prepare};
+use crate::progress::Progress;
+use crate::scene::load::{self, LoadError};
+use crate::scene::{Scene, builtin};
+use crate::settings::Discretization;
+
+/// A scene ready to be shown, and what it was made for.
+#[derive(Clone)]
+pub struct Ready {
+    pub prepared: Arc<Prepared>,
+    pub discretization: Discretization,
+    /// Another scene than before, not another grid for the same one.
+    pub is_new: bool,
+}
+
+#[derive(Default)]
+pub struct Loader {
+    job: Option<Job>,
+}
+
+struct Job {
+    /// For the person: what is going on.
+    title: String,
+    discretization: Discretization,
+    opens: bool,
+    work: Background<Result<Ready, Failure>>,
+}
+
+enum Failure {
+    Cancelled,
+    /// One sentence.
+    Cause(String),
+}
+
+impl Loader {
+    /// Opens a file, or a built-in scene by its name.
+    pub fn open(&mut self, ctx: &egui::Context, source: &Path, discretization: Discretization) {
+        let source = source.to_owned();
+        let title = format!("Opening {}", file_name(&source));
+        let work = Background::start(ctx, move |progress| {
+            let scene = Arc::new(open_scene(&source, progress)?);
+            voxelize(scene, discretization, None, progress)
+        });
+        self.job = Some(Job { title, discretization, opens: true, work });
+    }
+
+    /// Voxelizes an open scene for another grid, span or mode.
+    pub fn discretize(&mut self, ctx: &egui::Context, open: &Arc<Prepared>, discretization: Discretization) {
+        if self.job.as_ref().is_some_and(|job| same_voxels(&job.discretization, &discretization)) {
+            return;
+        }
+        let open = Arc::clone(open);
+        let title = format!("Voxelizing at {0}³", discretization.grid);
+        let work = Background::start(ctx, move |progress| {
+            voxelize(Arc::clone(&open.scene), discretization, Some(&open), progress)
+        });
+        self.job = Some(Job { title, discretization, opens: false, work });
+    }
+
+    pub fn cancel(&mut self) {
+        self.job = None;
+    }
+
+    /// What is going on, and how far it is.
+    pub fn progress(&self) -> Option<(&str, f32)> {
+        self.job.as_ref().map(|job| (job.title.as_str(), job.work.fraction()))
+    }
+
+    /// A scene is being opened, which will replace the one that is open.
+    pub fn is_opening(&self) -> bool {
+        self.job.as_ref().is_some_and(|job| job.opens)
+    }
+
+    /// The result, once; an error is one sentence.
+    pub fn poll(&mut self) -> Option<Result<Ready, String>> {
+        let outcome = match self.job.as_ref()?.work.poll() {
+            Outcome::Running => return None,
+            outcome => outcome,
+        };
+        let title = self.job.take()?.title;
+        match outcome {
+            Outcome::Done(Ok(ready)) => Some(Ok(ready)),
+            Outcome::Done(Err(Failure::Cause(cause))) => Some(Err(cause)),
+            Outcome::Died => Some(Err(format!("{title}: the work ended unexpectedly"))),
+            Outcome::Done(Err(Failure::Cancelled)) | Outcome::Running => None,
+        }
+    }
+}
+
+/// Whether two settings need the same voxel caches.
+pub fn same_voxels(a: &Discretization, b: &Discretization) -> bool {
+    (a.grid, a.span, a.mode) == (b.grid, b.span, b.mode)
+}
+
+/// The file's name, or all of a path that has none.
+pub fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn open_scene(source: &Path, progress: &Progress) -> Result<Scene, Failure> {
+    let opened = match source.to_str().and_then(builtin::bytes) {
+        Some(bytes) => load::open_bytes(&file_name(source), bytes, None, progress),
+        None => load::open(source, progress),
+    };
+    opened.map_err(|error| match error {
+        LoadError::Cancelled { .. } => Failure::Cancelled,
+        error => Failure::Cause(error.to_string()),
+    })
+}
+
+fn voxelize(
+    scene: Arc<Scene>,
+    discretization: Discretization,
+    open: Option<&Prepared>,
+    progress: &Progress,
+) -> Result<Ready, Failure> {
+    match prepare(scene, &discretization, open, progress) {
+        Ok(prepared) => Ok(Ready { prepared: Arc::new(prepared), discretization, is_new: open.is_none() }),
+        Err(PrepareError::Cancelled(_)) => Err(Failure::Cancelled),
+        Err(error) => Err(Failure::Cause(error.to_string())),
+    }
+}

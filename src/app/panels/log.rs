@@ -1,0 +1,37 @@
+//! What happened, newest first.
+
+use egui::{Color32, RichText, Ui};
+
+use super::nothing;
+use crate::app::commands::Command;
+use crate::app::journal::{Entry, Severity};
+use crate::app::theme;
+
+pub fn ui<'a>(ui: &mut Ui, entries: impl DoubleEndedIterator<Item = &'a Entry>) -> Vec<Command> {
+    let mut entries = entries.rev().peekable();
+    if entries.peek().is_none() {
+        nothing(ui, "Nothing yet.");
+        return Vec::new();
+    }
+    let clear = ui.small_button("Clear log").on_hover_text("Forgets all lines.").clicked();
+    for entry in entries {
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new(clock(entry.at_secs)).color(theme::WEAK).monospace());
+            ui.label(RichText::new(&entry.text).color(color(entry.severity)));
+        });
+    }
+    if clear { vec![Command::ClearLog] } else { Vec::new() }
+}
+
+pub fn color(severity: Severity) -> Color32 {
+    match severity {
+        Severity::Info => theme::STRONG,
+        Severity::Warning => theme::WARNING,
+        Severity::Error => theme::ERROR,
+    }
+}
+
+/// Minutes and seconds since the window opened.
+fn clock(secs: f64) -> String {
+    format!("{:02}:{:04.1}", (secs / 60.0) as u64, secs % 60.0)
+}

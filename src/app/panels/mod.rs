@@ -1,0 +1,131 @@
+//! The panels around the view. Each is a function of exactly what it shows; what a person does
+//! comes back as commands. The helpers here give them one look.
+
+pub mod discretization;
+pub mod filter;
+pub mod icon;
+pub mod log;
+pub mod memory;
+pub mod octree;
+pub mod plan;
+pub mod scene;
+pub mod table;
+pub mod timeline;
+pub mod timings;
+pub mod top_bar;
+pub mod view;
+
+use egui::{CollapsingHeader, Response, RichText, Ui, WidgetInfo, vec2};
+
+use super::commands::Command;
+use super::theme;
+
+/// Width of the names left of the controls.
+const NAME_WIDTH: f32 = 76.0;
+
+/// A part of a side panel that can be folded away.
+pub fn section(ui: &mut Ui, title: &str, open: bool, body: impl FnOnce(&mut Ui) -> Vec<Command>) -> Vec<Command> {
+    let header = RichText::new(title).color(theme::STRONG).size(13.0);
+    let shown = CollapsingHeader::new(header).id_salt(title).default_open(open).show_unindented(ui, |ui| {
+        ui.add_space(2.0);
+        let commands = body(ui);
+        ui.add_space(6.0);
+        commands
+    });
+    ui.separator();
+    shown.body_returned.unwrap_or_default()
+}
+
+/// A named control: name left, control right, and the same tooltip over both.
+pub fn control(ui: &mut Ui, name: &str, tip: &str, add: impl FnOnce(&mut Ui) -> Response) -> Response {
+    let row = ui.horizontal(|ui| {
+        let label = ui.allocate_ui_with_layout(
+            vec2(NAME_WIDTH, ui.spacing().interact_size.y),
+            egui::Layout::left_to_right(egui::Align::Center),
+            |ui| {
+                ui.set_min_width(NAME_WIDTH);
+                ui.label(RichText::new(name).color(theme::WEAK)).on_hover_text(tip)
+            },
+        );
+        add(ui).labelled_by(label.inner.id).on_hover_text(tip)
+    });
+    row.inner
+}
+
+/// One of a few values as buttons side by side; whether another one was chosen.
+pub fn switch<T: PartialEq + Copy>(ui: &mut Ui, value: &mut T, options: &[(T, &str, &str)]) -> bool {
+    let mut changed = false;
+    ui.spacing_mut().item_spacing.x = 2.0;
+    for &(option, name, tip) in options {
+        let button = egui::Button::selectable(*value == option, name).frame_when_inactive(true);
+        if ui.add(button).on_hover_text(tip).clicked() && *value != option {
+            *value = option;
+            changed = true;
+        }
+    }
+    changed
+}
+
+/// A named [`switch`].
+pub fn choice<T: PartialEq + Copy>(
+    ui: &mut Ui,
+    name: &str,
+    tip: &str,
+    value: &mut T,
+    options: &[(T, &str, &str)],
+) -> bool {
+    let mut changed = false;
+    control(ui, name, tip, |ui| ui.horizontal(|ui| changed = switch(ui, value, options)).response);
+    changed
+}
+
+/// Names a number that shows no name of its own.
+pub fn named_number(response: &Response, value: f64, name: &str) {
+    let label = Some(name.to_owned());
+    response.widget_info(|| WidgetInfo { label: label.clone(), ..WidgetInfo::drag_value(true, value) });
+}
+
+/// A line of text for something that is not there.
+pub fn nothing(ui: &mut Ui, text: &str) {
+    ui.label(RichText::new(text).color(theme::WEAK));
+}
+
+/// 1234567 as "1,234,567".
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place) % 3 == 0 {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// "12.3 MiB".
+pub fn bytes(count: u64) -> String {
+    bytesize::ByteSize::b(count).display().iec().to_string()
+}
+
+/// Three significant digits of milliseconds.
+pub fn milliseconds(ms: f64) -> String {
+    match ms {
+        ms if ms < 10.0 => format!("{ms:.2}"),
+        ms if ms < 100.0 => format!("{ms:.1}"),
+        ms => format!("{ms:.0}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_numbers_are_grouped_by_thousands() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1000), "1,000");
+        assert_eq!(grouped(12_345_678), "12,345,678");
+    }
+}

@@ -1,0 +1,38 @@
+//! The frame plan: every pass, whether it runs, is reused or skipped, and why.
+
+use egui::{Color32, Ui};
+
+use super::table::{self, Cell};
+use crate::app::theme;
+use crate::plan::{FramePlan, Pass, State};
+
+pub fn ui(ui: &mut Ui, plan: &FramePlan) {
+    let rows = plan.rows.iter().map(|row| {
+        let (state, color) = state(row.state);
+        vec![
+            Cell::new(format!("{:?}", row.pass)).color(pass_color(row.state)).tip(kernels(row.pass)),
+            Cell::new(state).color(color),
+            Cell::new(row.reason).color(theme::WEAK).tip(row.reason),
+        ]
+    });
+    table::show(ui, "plan", &[("pass", 0.0), ("state", 40.0), ("reason", 150.0)], rows.collect());
+}
+
+fn state(state: State) -> (&'static str, Color32) {
+    match state {
+        State::Run => ("run", theme::ACCENT),
+        State::Reuse => ("reuse", theme::WARNING),
+        State::Skip => ("skip", theme::WEAK),
+    }
+}
+
+fn pass_color(state: State) -> Color32 {
+    if state == State::Skip { theme::WEAK } else { theme::STRONG }
+}
+
+fn kernels(pass: Pass) -> String {
+    match pass.kernels() {
+        [] => "Work of the CPU".to_owned(),
+        kernels => format!("Kernels: {}", kernels.join(", ")),
+    }
+}

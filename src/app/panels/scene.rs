@@ -1,0 +1,118 @@
+//! Opening scenes, and what the open one holds.
+
+use std::path::PathBuf;
+
+use egui::{Grid, RichText, TextEdit, Ui};
+
+use super::{bytes, grouped, nothing};
+use crate::app::commands::Command;
+use crate::app::loader::file_name;
+use crate::app::theme;
+use crate::data::voxel_cache::CacheVoxel;
+use crate::prepare::Prepared;
+use crate::scene::{Motion, builtin};
+
+pub fn ui(ui: &mut Ui, scene: Option<&Prepared>, path: &mut String, recent: &[PathBuf]) -> Vec<Command> {
+    let mut commands = open_ui(ui, path, recent);
+    match scene {
+        Some(prepared) => facts_ui(ui, prepared),
+        None => nothing(ui, "No scene is open. Drop a .gltf or .glb file here."),
+    }
+    commands.dedup();
+    commands
+}
+
+fn open_ui(ui: &mut Ui, path: &mut String, recent: &[PathBuf]) -> Vec<Command> {
+    let mut commands = Vec::new();
+    ui.horizontal(|ui| {
+        if ui.button("Choose…").on_hover_text("Opens the desktop's file dialog (Ctrl+O).").clicked() {
+            commands.push(Command::ChooseFile);
+        }
+        commands.extend(recent_ui(ui, recent));
+    });
+    ui.horizontal(|ui| {
+        let name = ui.label(RichText::new("Path").color(theme::WEAK));
+        let width = ui.available_width() - 56.0;
+        let field = TextEdit::singleline(path).hint_text("a .gltf or .glb file").desired_width(width);
+        let entered = ui.add(field).labelled_by(name.id).on_hover_text("Path of a scene; Enter opens it.");
+        let enter = entered.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let open = ui.add_enabled(!path.trim().is_empty(), egui::Button::new("Open"));
+        if open.on_hover_text("Opens the file at this path.").clicked() || enter && !path.trim().is_empty() {
+            commands.push(Command::Open(PathBuf::from(path.trim())));
+        }
+    });
+    commands
+}
+
+fn recent_ui(ui: &mut Ui, recent: &[PathBuf]) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let menu = ui.menu_button("Recent", |ui| {
+        for path in recent {
+            if ui.button(file_name(path)).on_hover_text(path.display().to_string()).clicked() {
+                commands.push(Command::Open(path.clone()));
+            }
+        }
+        ui.separator();
+        for name in builtin::NAMES {
+            if ui.button(format!("Built-in {name}")).clicked() {
+                commands.push(Command::Open(PathBuf::from(name)));
+            }
+        }
+    });
+    menu.response.on_hover_text("Scenes opened since the start, and the built-in ones.");
+    commands
+}
+
+fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
+    let scene = &prepared.scene;
+    let count = |wanted: fn(&Motion) -> bool| {
+        prepared.objects.iter().filter(|object| wanted(&object.object.motion)).count() as u64
+    };
+    let triangles: usize =
+        prepared.objects.iter().map(|object| scene.meshes[object.object.mesh].triangle_count()).sum();
+    let joints: usize = scene.skins.iter().map(|skin| skin.joints.len()).sum();
+    let cached: u64 = prepared.caches.iter().map(|cache| cache.voxels.len() as u64).sum();
+    let cache_bytes = cached * size_of::<CacheVoxel>() as u64;
+    let size = prepared.bounds.map_or("nothing to see".to_owned(), |bounds| {
+        let size = bounds.size();
+        format!("{:.3} × {:.3} × {:.3}", size.x, size.y, size.z)
+    });
+    Grid::new("scene facts").num_columns(2).spacing([10.0, 2.0]).show(ui, |ui| {
+        let source = scene.source.as_deref().map_or("built in".to_owned(), |path| path.display().to_string());
+        fact(ui, "Name", &scene.name, &source);
+        let objects = format!(
+            "{} ({} static, {} rigid, {} skinned)",
+            grouped(prepared.objects.len() as u64),
+            count(|motion| *motion == Motion::Static),
+            count(|motion| *motion == Motion::Rigid),
+            count(|motion| matches!(motion, Motion::Skinned { .. })),
+        );
+        fact(ui, "Objects", &objects, "Nodes with a mesh, by how they move.");
+        fact(ui, "Triangles", &grouped(triangles as u64), "Of all objects; instances count each.");
+        fact(ui, "Skins", &format!("{} with {joints} joints", scene.skins.len()), "Skeletons that move meshes.");
+        fact(ui, "Clips", &scene.clips.len().to_string(), "Animations of the file.");
+        fact(ui, "Size", &size, "Posed bounds over all animation, in scene units.");
+        let caches = format!("{} in {}", grouped(cached), bytes(cache_bytes));
+        fact(ui, "Voxels", &caches, "Of all caches: objects of one mesh and stretch share theirs.");
+        let time = format!("{:.0} ms", prepared.voxelize_ms);
+        warnings_ui(ui, &prepared.warnings);
+        fact(ui, "Voxelized", &time, "Time on the CPU for the last voxelization; once per grid, span and mode.");
+    });
+}
+
+fn warnings_ui(ui: &mut Ui, warnings: &[String]) {
+    ui.label(RichText::new("Warnings").color(theme::WEAK));
+    if warnings.is_empty() {
+        ui.label("none");
+    } else {
+        let count = RichText::new(format!("{}, see the log", warnings.len())).color(theme::WARNING);
+        ui.label(count).on_hover_text(warnings.join("\n"));
+    }
+    ui.end_row();
+}
+
+fn fact(ui: &mut Ui, name: &str, value: &str, tip: &str) {
+    ui.label(RichText::new(name).color(theme::WEAK));
+    ui.add(egui::Label::new(value).truncate()).on_hover_text(tip);
+    ui.end_row();
+}

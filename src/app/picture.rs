@@ -1,0 +1,122 @@
+//! The middle of the window: which picture is wanted now, how coarse it may be, and what lies over it.
+
+use egui::{Align2, FontId, Rect, Ui, vec2};
+
+use super::journal::Severity;
+use super::{App, PROGRESS_STEP, exact_job, legend, theme, viewport};
+use crate::gpu::GpuTexture;
+use crate::scene::OrbitCamera;
+use crate::settings::{Settings, View};
+
+impl App {
+    pub(super) fn picture_ui(&mut self, ui: &mut Ui, clock_secs: f64) {
+        let rect = ui.available_rect_before_wrap();
+        let full_px = viewport::size_px(ui, rect, 1);
+        let camera = self.camera(full_px);
+        let (settings, size_px) = self.wanted_picture(ui, full_px, clock_secs);
+        if self.scene.is_some()
+            && let Err(error) = self.stage.advance(&settings, size_px)
+        {
+            self.journal.tell(Severity::Error, error);
+            self.screenshots.give_up();
+        }
+        self.save_screenshot(ui.ctx(), &settings, full_px);
+        let response = self.viewport.ui(ui, &self.render, self.stage.picture());
+        let commands = viewport::commands(ui, &response, &camera);
+        let moved = !commands.is_empty();
+        commands.into_iter().for_each(|command| self.apply(ui.ctx(), command, clock_secs));
+        if moved {
+            // The picture of the new camera is asked for by the next frame.
+            ui.ctx().request_repaint();
+        }
+        self.overlay_ui(ui, rect, size_px, full_px);
+    }
+
+    /// What the camera of the settings is when it frames everything.
+    fn camera(&self, full_px: [u32; 2]) -> OrbitCamera {
+        self.settings.look.camera.unwrap_or_else(|| {
+            let mut camera = OrbitCamera::default();
+            let aspect = f64::from(full_px[0]) / f64::from(full_px[1]);
+            camera.frame(self.prepared().and_then(|prepared| prepared.bounds), aspect);
+            camera
+        })
+    }
+
+    /// The settings to draw: of the voxels that are there, in a pose whose exact set is there too.
+    fn wanted_picture(&mut self, ui: &Ui, full_px: [u32; 2], clock_secs: f64) -> (Settings, [u32; 2]) {
+        let mut settings = self.settings.clone();
+        settings.look.camera = Some(self.camera(full_px));
+        if let Some(ready) = &self.scene {
+            let made = ready.discretization;
+            let wanted = &mut settings.discretization;
+            (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);
+            let looked_at = settings.look.accuracy || settings.look.view == View::Ghost;
+            let update = self.exact.update(ui.ctx(), &ready.prepared, &settings.motion, looked_at);
+            settings.motion = update.motion;
+            if let Some(exact) = update.exact {
+                self.stage.set_exact(exact);
+            }
+            for warning in update.warnings {
+                self.journal.note(Severity::Warning, warning);
+            }
+        }
+        let coarse = self.is_moving(clock_secs) && !self.screenshots.is_wanted();
+        let coarseness = if coarse { viewport::coarseness(self.stage.ms_per_pixel(), full_px) } else { 1 };
+        (settings, full_px.map(|edge| edge.div_ceil(coarseness)))
+    }
+
+    fn is_moving(&self, clock_secs: f64) -> bool {
+        let rest_secs = exact_job::REST.as_secs_f64();
+        self.playback.is_playing() || self.moved_at_secs.is_some_and(|moved| clock_secs - moved < rest_secs)
+    }
+
+    fn save_screenshot(&mut self, ctx: &egui::Context, settings: &Settings, full_px: [u32; 2]) {
+        if !self.screenshots.is_wanted() || self.stage.working().is_some() {
+            return;
+        }
+        let Some(ready) = &self.scene else { return self.screenshots.give_up() };
+        let ready_px = self.stage.picture().map(GpuTexture::size_px);
+        if ready_px != Some(full_px) || self.exact.fraction().is_some() {
+            return;
+        }
+        match self.stage.engine.read_image() {
+            Ok(picture) => self.screenshots.save(ctx, picture, settings.clone(), &ready.prepared.scene.name),
+            Err(error) => {
+                self.screenshots.give_up();
+                self.journal.tell(Severity::Error, format!("no screenshot: {error}"));
+            }
+        }
+    }
+
+    /// Asks for the next frame of the window where something goes on; whether at once.
+    pub(super) fn wake_again(&self, ctx: &egui::Context, clock_secs: f64) -> bool {
+        if self.loader.progress().is_some() || self.exact.fraction().is_some() {
+            ctx.request_repaint_after(PROGRESS_STEP);
+        }
+        let now = self.stage.working().is_some() || self.playback.is_playing() || self.screenshots.is_wanted();
+        if now {
+            ctx.request_repaint();
+        } else if self.is_moving(clock_secs) {
+            ctx.request_repaint_after(exact_job::REST);
+        }
+        now
+    }
+
+    fn overlay_ui(&self, ui: &Ui, rect: Rect, size_px: [u32; 2], full_px: [u32; 2]) {
+        let painter = ui.painter_at(rect);
+        let small = FontId::proportional(11.0);
+        if let Some(error) = self.stage.error() {
+            painter.text(rect.center(), Align2::CENTER_CENTER, error, FontId::proportional(13.0), theme::ERROR);
+        } else if self.scene.is_none() {
+            let text = if self.loader.progress().is_some() { "Opening…" } else { "No scene is open" };
+            painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(15.0), theme::WEAK);
+        }
+        let corner = rect.left_bottom() + vec2(10.0, -8.0);
+        let hint = "drag: orbit   right drag: pan   wheel: zoom   F: frame all";
+        painter.text(corner, Align2::LEFT_BOTTOM, hint, small.clone(), theme::WEAK);
+        let coarse = if size_px == full_px { "" } else { ", coarse" };
+        let size = format!("{} × {} px{coarse}", size_px[0], size_px[1]);
+        painter.text(rect.right_bottom() + vec2(-10.0, -8.0), Align2::RIGHT_BOTTOM, size, small, theme::WEAK);
+        legend::paint(&painter, rect, &self.settings.look);
+    }
+}

@@ -1,0 +1,137 @@
+//! Drives the engine once a frame of the window: asks for the picture, gives it a slice of GPU
+//! time, and keeps what the panels show of the last frame that ran.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::history::FrameHistory;
+use crate::engine::{Engine, EngineError, EngineState};
+use crate::gpu::{Gpu, GpuTexture, KernelTiming};
+use crate::plan::FramePlan;
+use crate::prepare::{ExactVoxels, Prepared};
+use crate::settings::Settings;
+
+/// GPU time of a frame of the window: what keeps input to paint short.
+const BUDGET: Duration = Duration::from_millis(30);
+
+pub struct Stage {
+    pub engine: Engine,
+    pub history: FrameHistory,
+    /// Of the last frame that ran.
+    pub timings: Vec<KernelTiming>,
+    /// Of the last frame that had anything to do.
+    pub plan: FramePlan,
+    state: State,
+    /// What the engine was asked for last.
+    asked: Option<(Settings, [u32; 2])>,
+    /// What a pixel of the last picture cost.
+    ms_per_pixel: f64,
+    /// The last picture that was finished.
+    finished: Option<GpuTexture>,
+}
+
+enum State {
+    Idle,
+    Working {
+        fraction: f32,
+    },
+    /// The picture that was asked for cannot be made; it is not tried again.
+    Failed {
+        error: String,
+    },
+}
+
+impl Stage {
+    pub fn new(gpu: Arc<Gpu>) -> Self {
+        Self {
+            engine: Engine::new(gpu),
+            history: FrameHistory::default(),
+            timings: Vec::new(),
+            plan: FramePlan::default(),
+            state: State::Idle,
+            asked: None,
+            ms_per_pixel: 0.0,
+            finished: None,
+        }
+    }
+
+    /// Another scene, or other voxels of it.
+    pub fn set_prepared(&mut self, prepared: &Arc<Prepared>) {
+        self.engine.set_prepared(Some(Arc::clone(prepared)));
+        (self.state, self.asked, self.finished) = (State::Idle, None, None);
+    }
+
+    pub fn set_exact(&mut self, exact: Option<Arc<ExactVoxels>>) {
+        self.engine.set_exact(exact);
+        self.asked = None;
+    }
+
+    /// Asks for a picture and works on it for a while. An error is told once, as one sentence.
+    pub fn advance(&mut self, settings: &Settings, size_px: [u32; 2]) -> Result<(), String> {
+        let asked = self.asked.as_ref().is_some_and(|(asked, asked_px)| asked == settings && *asked_px == size_px);
+        if size_px.contains(&0) || asked && !matches!(self.state, State::Working { .. }) {
+            return Ok(());
+        }
+        match self.ask(settings, size_px, asked).and_then(|()| self.engine.advance(BUDGET)) {
+            Ok(EngineState::Working { fraction }) => {
+                self.state = State::Working { fraction };
+                self.plan.clone_from(self.engine.plan());
+                if fraction >= 1.0 {
+                    self.finish();
+                }
+            }
+            Ok(EngineState::Idle) => self.state = State::Idle,
+            Err(error) => {
+                self.state = State::Failed { error: error.to_string() };
+                return Err(error.to_string());
+            }
+        }
+        Ok(())
+    }
+
+    fn ask(&mut self, settings: &Settings, size_px: [u32; 2], asked: bool) -> Result<(), EngineError> {
+        if asked {
+            return Ok(());
+        }
+        self.asked = Some((settings.clone(), size_px));
+        self.engine.request(settings, size_px)
+    }
+
+    /// How far the frame is that the GPU works on.
+    pub fn working(&self) -> Option<f32> {
+        match self.state {
+            State::Working { fraction } => Some(fraction),
+            _ => None,
+        }
+    }
+
+    /// Why there is no picture of what was asked for.
+    pub fn error(&self) -> Option<&str> {
+        match &self.state {
+            State::Failed { error } => Some(error),
+            _ => None,
+        }
+    }
+
+    /// The picture to show: a new one of another size only when it is finished, the first one at once.
+    pub fn picture(&self) -> Option<&GpuTexture> {
+        self.finished.as_ref().or(self.engine.image())
+    }
+
+    pub fn ms_per_pixel(&self) -> f64 {
+        self.ms_per_pixel
+    }
+
+    /// Takes down what the frame has cost.
+    fn finish(&mut self) {
+        self.timings = self.engine.timings();
+        self.history.push(&self.timings);
+        let view = self.timings.iter().filter(|timing| timing.kernel.starts_with("view/"));
+        let view_ms: f64 = view.map(|timing| timing.ms).sum();
+        self.finished = self.engine.image().cloned();
+        if let Some(picture) = &self.finished {
+            let [width, height] = picture.size_px().map(f64::from);
+            self.ms_per_pixel = view_ms / (width * height);
+        }
+    }
+}
