@@ -184,11 +184,7 @@ fn the_timeline_moves_the_scene_and_scrubbing_returns_to_the_same_picture() {
     assert_changed(&start, &stepped, "stepping");
     window.set("Time", 0.0);
     assert_eq!(difference(&start, &window.view()), 0, "time 0 looks the same again");
-<<<<<<< HEAD
-    window.set("Time", 0.4);
-=======
     window.set("Time", 0.2);
->>>>>>> app
 
     assert_eq!(difference(&stepped, &window.view()), 0, "scrubbed to the time stepped to");
     window.choose("Clip", "Rest pose");
