@@ -41,7 +41,7 @@ pub struct Changes {
     pub exact_masks: bool,
     /// There are exact voxels of this pose to compare with.
     pub exact_known: bool,
-    /// Camera, picture size or anything of the look.
+    /// Camera, picture size or anything of the look; in the mesh view, the pose too.
     pub view: bool,
     /// The octree's leaves have no object numbers yet.
     pub object_numbers: bool,
@@ -291,6 +291,5 @@ fn draw_mesh(scene: &SceneFacts, changed: &Changes, settings: &Settings) -> Verd
     let skip = (scene.triangles == 0)
         .then_some("no triangles")
         .or((settings.look.view != View::Mesh).then_some("another view is shown"));
-    let redraw = changed.view || changed.caches || changed.rigid_poses || changed.skinned_poses;
-    unless(skip, redraw, "pose or camera changed", "nothing changed")
+    unless(skip, changed.view, "pose or camera changed", "nothing changed")
 }

@@ -187,8 +187,8 @@ impl Engine {
             (Some(exact), Some(done)) => !Arc::ptr_eq(exact, done),
             (exact, done) => exact.is_some() != done.is_some(),
         };
-        let mesh_moved = wanted.settings.look.view == View::Mesh
-            && self.done.mesh_frame.as_ref().is_some_and(|frame| *frame != wanted.frame);
+        let mesh_moved =
+            wanted.settings.look.view == View::Mesh && self.done.mesh_frame.as_ref() != Some(&wanted.frame);
         Changes {
             caches: self.scene.is_none(),
             residents: of_frame.residents,

@@ -7,6 +7,7 @@ use super::{Engine, EngineError, Wanted};
 use crate::data::octree::{OctreeParams, Slot};
 use crate::gpu::{GpuError, GpuTexture, Recorder};
 use crate::scene::OrbitCamera;
+use crate::scene::camera::camera_from_scene_camera;
 use crate::settings::View;
 use crate::stages::build::COUNTERS;
 use crate::stages::build::reduce::{self, Masks};
@@ -50,7 +51,7 @@ impl Engine {
         let mut frame = Recorder::default();
         let picture = self.ensure_picture(wanted.size_px)?;
         let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
-        let rays = PixelRays::new(&self.camera(wanted), &grid, wanted.size_px);
+        let rays = PixelRays::new(&self.camera(wanted)?, &grid, wanted.size_px);
         let look = &wanted.settings.look;
         match look.view {
             View::Voxels => {
@@ -73,7 +74,7 @@ impl Engine {
 
     fn record_mesh(&mut self, frame: &mut Recorder, wanted: &Wanted, picture: &Picture) -> Result<(), EngineError> {
         let prepared = self.prepared.clone().ok_or(EngineError::NoScene)?;
-        let camera = self.camera(wanted);
+        let camera = self.camera(wanted)?;
         let pose = prepared.pose(&wanted.settings.motion)?;
         let depth = self.mesh_depth(wanted.size_px)?;
         let missing = || GpuError::Missing { label: "mesh vertices".to_owned() };
@@ -120,15 +121,18 @@ impl Engine {
         Ok(self.picture.insert(Picture::new(&self.gpu, size_px)?).clone())
     }
 
-    /// The camera that is set, or one that frames everything.
-    fn camera(&self, wanted: &Wanted) -> OrbitCamera {
-        let aspect = f64::from(wanted.size_px[0]) / f64::from(wanted.size_px[1]);
-        let bounds = self.prepared.as_ref().and_then(|prepared| prepared.bounds);
-        wanted.settings.look.camera.unwrap_or_else(|| {
+    /// The camera that is set, else the file's first, else one that frames everything.
+    fn camera(&self, wanted: &Wanted) -> Result<OrbitCamera, EngineError> {
+        if let Some(camera) = wanted.settings.look.camera {
+            return Ok(camera);
+        }
+        let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
+        let pose = prepared.pose(&wanted.settings.motion)?;
+        Ok(camera_from_scene_camera(&prepared.scene, 0, &pose).unwrap_or_else(|| {
             let mut camera = OrbitCamera::default();
-            camera.frame(bounds, aspect);
+            camera.frame(prepared.bounds, f64::from(wanted.size_px[0]) / f64::from(wanted.size_px[1]));
             camera
-        })
+        }))
     }
 
     /// The picture, gamma-encoded sRGB; `None` before the first.

@@ -108,13 +108,21 @@ impl Gpu {
             bytes.chunks_mut(READ_CHUNK_BYTES as usize).zip((range_bytes.start..).step_by(READ_CHUNK_BYTES as usize))
         {
             let read = self.start_read(buffer, start..start + chunk.len() as u64)?;
-            self.wait()?;
-            match read.take(self)? {
-                Some(read) => chunk.copy_from_slice(&read),
-                None => return Err(self.refused(&format!("reading \"{}\"", buffer.label()), "no answer")),
-            }
+            chunk.copy_from_slice(&self.wait_for(&read)?);
         }
         Ok(data)
+    }
+
+    /// Blocks until the bytes are here. Where two threads wait, either may be the one to deliver what
+    /// both wait for, so that work can be done before its answer has come.
+    fn wait_for(&self, read: &PendingRead) -> Result<Vec<u8>, GpuError> {
+        loop {
+            self.wait()?;
+            if let Some(bytes) = read.take(self)? {
+                return Ok(bytes);
+            }
+            std::thread::yield_now();
+        }
     }
 
     /// Copies a range (whole words) as of now; the answer comes later, without blocking.

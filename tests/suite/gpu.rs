@@ -201,6 +201,21 @@ fn reads_any_whole_range_and_refuses_others() {
 }
 
 #[test]
+fn threads_that_read_at_the_same_time_all_get_their_answer() {
+    let gpu = gpu();
+    std::thread::scope(|scope| {
+        for thread in 0..8_u32 {
+            scope.spawn(move || {
+                for round in 0..400 {
+                    let buffer = gpu.upload("numbers", &[thread, round, 3, 4]).expect("fits");
+                    assert_eq!(gpu.read::<u32>(&buffer, 0..8), Ok(vec![thread, round]));
+                }
+            });
+        }
+    });
+}
+
+#[test]
 fn a_read_does_not_have_to_wait() {
     let gpu = gpu();
     let buffer = gpu.upload("numbers", &[1_u32, 2, 3, 4]).expect("fits");

@@ -17,6 +17,7 @@ mod device;
 mod document;
 mod dummies;
 mod gpu;
+mod hard_cases;
 mod loading;
 mod mesh_view;
 mod motion;

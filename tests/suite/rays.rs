@@ -2,6 +2,7 @@
 //! `shared/ray_walk.wgsl` on the GPU against the reference's sorted crossings.
 
 use glam::{DVec3, IVec3, Vec3};
+use octolume::gpu::shaders::FILES;
 use octolume::gpu::{Job, Recorder};
 use octolume::stages::view::march_ref::crossings;
 use proptest::prelude::*;
@@ -48,6 +49,11 @@ struct Step {
 
 /// Every step of each ray through `cells`³ cells, after at most `limit`; panics if one goes on.
 fn walk(rays: &[(Vec3, Vec3)], cells: u32, limit: usize) -> Vec<Vec<Step>> {
+    walk_by(WALK, rays, cells, limit).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The same by another kernel; an error if a ray goes on.
+fn walk_by(source: &str, rays: &[(Vec3, Vec3)], cells: u32, limit: usize) -> Result<Vec<Vec<Step>>, String> {
     let gpu = gpu();
     let words: Vec<[f32; 4]> = rays.iter().flat_map(|(o, d)| [o.extend(0.0).into(), d.extend(0.0).into()]).collect();
     let buffer = gpu.upload("rays", &words).expect("fits");
@@ -56,7 +62,7 @@ fn walk(rays: &[(Vec3, Vec3)], cells: u32, limit: usize) -> Vec<Vec<Step>> {
     let counts = gpu.buffer("counts", 4 * rays.len() as u64, wgpu::BufferUsages::empty()).expect("fits");
     let mut recorder = Recorder::default();
     recorder
-        .pass(&gpu.kernel_from_source("walk", WALK, &[]))
+        .pass(&gpu.kernel_from_source("walk", source, &[]))
         .bind("rays", &buffer)
         .bind("steps", &steps)
         .bind("counts", &counts)
@@ -67,61 +73,61 @@ fn walk(rays: &[(Vec3, Vec3)], cells: u32, limit: usize) -> Vec<Vec<Step>> {
     let counts: Vec<u32> = gpu.read(&counts, 0..4 * rays.len() as u64).expect("readable");
     let walked = steps.chunks(limit).zip(counts);
     walked
-        .map(|(steps, count)| {
-            assert!(count as usize <= limit, "goes on after {limit} steps");
-            steps[..count as usize].to_vec()
+        .map(|(steps, count)| match steps.get(..count as usize) {
+            Some(steps) => Ok(steps.to_vec()),
+            None => Err(format!("goes on after {limit} steps")),
         })
         .collect()
 }
 
 /// t never decreases, cells are neighbours, none comes twice, none lies outside.
-fn assert_orderly(steps: &[Step], cells: u32, ray: &(Vec3, Vec3)) {
+fn check_order(steps: &[Step], cells: u32, ray: &(Vec3, Vec3)) -> Result<(), String> {
     for pair in steps.windows(2) {
-        assert!(pair[1].enter >= pair[0].enter && pair[0].leave == pair[1].enter, "{ray:?}: {pair:?}");
-        let apart = (IVec3::from(pair[1].cell) - IVec3::from(pair[0].cell)).abs();
-        assert_eq!(apart.element_sum(), 1, "{ray:?}: {pair:?}");
-    }
-    // Along the ray only: with steps of one, no cell can come twice.
-    for axis in 0..3 {
-        let forward = ray.1[axis] > 0.0;
-        assert!(
-            steps
-                .windows(2)
-                .all(|p| forward == (p[1].cell[axis] >= p[0].cell[axis]) || p[1].cell[axis] == p[0].cell[axis])
-        );
+        if pair[1].enter < pair[0].enter || pair[0].leave != pair[1].enter {
+            return Err(format!("{ray:?}: t jumps: {pair:?}"));
+        }
+        let way = IVec3::from(pair[1].cell) - IVec3::from(pair[0].cell);
+        // Steps of one, along the ray only: no cell can come twice.
+        let ahead = (0..3).all(|axis| way[axis] == 0 || (way[axis] > 0) == (ray.1[axis] > 0.0));
+        if way.abs().element_sum() != 1 || !ahead {
+            return Err(format!("{ray:?}: cells jump: {pair:?}"));
+        }
     }
     let inside = |step: &Step| step.cell.iter().all(|&c| (0..cells as i32).contains(&c));
-    assert!(steps.iter().all(inside), "{ray:?}");
+    if steps.iter().all(inside) { Ok(()) } else { Err(format!("{ray:?}: leaves the grid")) }
 }
 
-/// Cells crossed for longer than f32 can blur.
-fn assert_crosses(steps: &[Step], cells: u32, ray: &(Vec3, Vec3)) {
+/// Cells crossed for longer than f32 can blur are those of the definition.
+fn check_cells(steps: &[Step], cells: u32, ray: &(Vec3, Vec3)) -> Result<(), String> {
     // Positions are sums and products of numbers up to |o| + t; a step's rounding moves its ends by
     // a few units in the last place of those.
     let reach = ray.0.length().max(1.0) + 2.0 * cells as f32;
     let blur = f64::from(reach) * 8.0 * f64::from(f32::EPSILON);
     let expected = crossings(ray.0.as_dvec3(), ray.1.as_dvec3(), cells);
+    // Crossings about as long as the blur may be on either list; all others are on both.
+    if expected.iter().any(|c| (blur..4.0 * blur).contains(&(c.to - c.from))) {
+        return Ok(());
+    }
     let sure = |from: f64, to: f64| to - from > 2.0 * blur;
     let wanted: Vec<_> = expected.iter().filter(|c| sure(c.from, c.to)).map(|c| c.cell).collect();
-    let seen: Vec<_> =
-        steps.iter().filter(|s| sure(s.enter.into(), s.leave.into())).map(|s| IVec3::from(s.cell)).collect();
-    // Crossings about as long as the blur may be on either list; all others are on both.
-    let unsure = |c: f64| c > blur && c < 4.0 * blur;
-    if expected.iter().any(|c| unsure(c.to - c.from)) {
-        return;
+    let long = steps.iter().filter(|s| sure(s.enter.into(), s.leave.into()));
+    let seen: Vec<_> = long.map(|s| IVec3::from(s.cell)).collect();
+    if seen == wanted { Ok(()) } else { Err(format!("{ray:?}: crosses {seen:?}, not {wanted:?}")) }
+}
+
+fn check_by(source: &str, rays: &[(Vec3, Vec3)]) -> Result<(), String> {
+    for (steps, ray) in walk_by(source, rays, CELLS, MAX_STEPS)?.iter().zip(rays) {
+        check_order(steps, CELLS, ray)?;
+        check_cells(steps, CELLS, ray)?;
     }
-    assert_eq!(seen, wanted, "{ray:?}");
+    Ok(())
 }
 
 fn check(rays: &[(Vec3, Vec3)]) {
-    for (steps, ray) in walk(rays, CELLS, MAX_STEPS).iter().zip(rays) {
-        assert_orderly(steps, CELLS, ray);
-        assert_crosses(steps, CELLS, ray);
-    }
+    assert_eq!(check_by(WALK, rays), Ok(()));
 }
 
-#[test]
-fn directions_with_zeros_and_almost_zeros() {
+fn axial_rays() -> Vec<(Vec3, Vec3)> {
     let components = [0.0, -0.0, 1e-20, -1e-20, 1.0, -1.0];
     let starts = [Vec3::new(3.3, 5.7, 8.2), Vec3::new(-2.5, 4.5, 7.5), Vec3::new(20.0, 3.25, 0.75), Vec3::splat(8.0)];
     let mut rays = Vec::new();
@@ -135,7 +141,37 @@ fn directions_with_zeros_and_almost_zeros() {
             }
         }
     }
-    check(&rays);
+    rays
+}
+
+#[test]
+fn directions_with_zeros_and_almost_zeros() {
+    check(&axial_rays());
+}
+
+/// Defects on purpose: the assertions of these tests must see them.
+#[test]
+fn a_wrong_walk_is_caught() {
+    let walk_file = FILES.iter().find(|(path, _)| *path == "shared/ray_walk.wgsl").expect("embedded").1;
+    let slanted: Vec<_> = (0..40_u16)
+        .map(|i| f32::from(i) * 0.37)
+        .map(|a| (Vec3::new(-4.0, 3.0, 5.0), Vec3::new(1.0, a.sin(), a.cos() * 0.5).normalize()))
+        .collect();
+    let rays = [axial_rays(), slanted].concat();
+    let by = |from: &str, to: &str| {
+        assert!(walk_file.contains(from), "{from}");
+        check_by(&WALK.replace("#import shared/ray_walk.wgsl", &walk_file.replace(from, to)), &rays)
+    };
+    assert_eq!(by("", ""), Ok(()));
+    for (from, to) in [
+        ("select(low - 1, low + size, ray.forward)", "select(low, low + size, ray.forward)"),
+        ("select(low, low + size, ray.forward)", "select(low + size, low, ray.forward)"),
+        ("let t = max(walk.t, exit.t);", "let t = walk.t;"),
+        ("min(times.x, min(times.y, times.z))", "min(times.x, times.y)"),
+        ("all(cell >= vec3<i32>(0))", "true"),
+    ] {
+        by(from, to).expect_err(to);
+    }
 }
 
 #[test]
@@ -160,7 +196,7 @@ fn rays_along_edges_and_through_corners() {
         }
     }
     for (steps, ray) in walk(&rays, CELLS, MAX_STEPS).iter().zip(&rays) {
-        assert_orderly(steps, CELLS, ray);
+        assert_eq!(check_order(steps, CELLS, ray), Ok(()));
     }
     // Through corners exactly: the cells of the diagonal have all of the length.
     let diagonal = &walk(&[(Vec3::ZERO, Vec3::ONE.normalize())], CELLS, MAX_STEPS)[0];
@@ -208,7 +244,7 @@ fn far_starts_and_large_grids_end_within_3n_steps() {
         }
     }
     for (steps, ray) in walk(&rays, cells, 3 * cells as usize).iter().zip(&rays) {
-        assert_orderly(steps, cells, ray);
+        assert_eq!(check_order(steps, cells, ray), Ok(()));
         assert!(!steps.is_empty());
     }
 }
