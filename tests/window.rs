@@ -19,31 +19,36 @@ const PATIENCE: Duration = Duration::from_secs(120);
 
 /// One device for all windows of a run.
 fn wgpu_setup() -> egui_wgpu::WgpuSetup {
-    static SETUP: OnceLock<egui_wgpu::WgpuSetupExisting> = OnceLock::new();
-    let setup = SETUP.get_or_init(|| {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
-        let adapter = Gpu::choose_adapter(adapters, None).expect("an adapter");
-        let opened = adapter.request_device(&Gpu::device_descriptor(&adapter));
-        let (device, queue) = pollster::block_on(opened).expect("a device");
-        egui_wgpu::WgpuSetupExisting { instance, adapter, device, queue }
-    });
-    egui_wgpu::WgpuSetup::Existing(setup.clone())
+    static SETUP: OnceLock<egui_wgpu::WgpuSetup> = OnceLock::new();
+    SETUP.get_or_init(new_device).clone()
+}
+
+fn new_device() -> egui_wgpu::WgpuSetup {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
+    let adapter = Gpu::choose_adapter(adapters, None).expect("an adapter");
+    let opened = adapter.request_device(&Gpu::device_descriptor(&adapter));
+    let (device, queue) = pollster::block_on(opened).expect("a device");
+    egui_wgpu::WgpuSetup::Existing(egui_wgpu::WgpuSetupExisting { instance, adapter, device, queue })
 }
 
 struct Window(Harness<'static, App>);
 
 impl Window {
     fn open(scene: &str) -> Self {
+        Self::on(wgpu_setup(), scene)
+    }
+
+    fn on(device: egui_wgpu::WgpuSetup, scene: &str) -> Self {
         let mut settings = Settings::default();
         settings.discretization.grid = 64;
         let scene = PathBuf::from(scene);
-        let harness = Harness::builder()
-            .with_size(vec2(1000.0, 1000.0))
-            .with_render_cursor(false)
-            .wgpu_setup(wgpu_setup())
-            .build_eframe(move |context| App::new(context, &scene, settings).expect("a window"));
-        let mut window = Self(harness);
+        Self::build(device, move |context| App::new(context, &scene, settings).expect("a window"))
+    }
+
+    fn build(device: egui_wgpu::WgpuSetup, app: impl FnOnce(&mut eframe::CreationContext<'static>) -> App) -> Self {
+        let builder = Harness::builder().with_size(vec2(1000.0, 1000.0)).with_render_cursor(false);
+        let mut window = Self(builder.wgpu_setup(device).build_eframe(app));
         window.settle();
         window
     }
@@ -275,6 +280,23 @@ fn a_still_scene_asks_for_no_repaint_and_runs_nothing() {
     let counters = window.app().gpu().counters();
     window.0.run_steps(8);
     assert_eq!(window.app().gpu().counters(), counters);
+}
+
+#[test]
+fn a_lost_gpu_keeps_scene_and_settings_for_a_new_one() {
+    let mut window = Window::on(new_device(), "courtyard");
+    window.set("Level", 5.0);
+    let before = window.view();
+    window.app().gpu().device.destroy();
+    // Nobody notices before something is to be drawn.
+    window.0.get_by_label("Nearest").click();
+    window.0.run_steps(4);
+    let kept = window.app().rescued().expect("scene and settings are kept");
+    drop(window);
+    let mut again = Window::build(wgpu_setup(), move |context| App::again(context, kept).expect("a window"));
+    assert_eq!(again.app().settings().look.level, Some(5));
+    again.click("Split");
+    assert_eq!(difference(&before, &again.view()), 0, "the same picture on another device");
 }
 
 #[test]

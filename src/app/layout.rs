@@ -13,6 +13,9 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let started = Instant::now();
         let ctx = ui.ctx().clone();
+        if self.close_if_lost(&ctx) {
+            return;
+        }
         let clock_secs = ui.input(|input| input.time);
         self.latency.frame(ui);
         self.collect(&ctx);

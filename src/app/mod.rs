@@ -23,6 +23,7 @@ mod loader;
 mod panels;
 mod picture;
 mod playback;
+mod rescue;
 mod screenshots;
 mod shortcuts;
 mod stage;
@@ -31,7 +32,7 @@ mod viewport;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
 
@@ -41,6 +42,8 @@ use self::journal::{Journal, Severity};
 pub use self::latency::Latency;
 use self::loader::{Loader, Ready, same_voxels};
 use self::playback::Playback;
+pub use self::rescue::Kept;
+use self::rescue::Rescue;
 use self::screenshots::Screenshots;
 use self::stage::Stage;
 use self::viewport::Viewport;
@@ -53,21 +56,49 @@ use crate::settings::{MotionSettings, Settings};
 /// How often a progress bar is redrawn.
 const PROGRESS_STEP: Duration = Duration::from_millis(100);
 
+/// A device that is lost sooner than this after the last one is not replaced.
+const WORTH_ANOTHER_DEVICE: Duration = Duration::from_secs(10);
+
 /// Opens the window on a file, or on a built-in scene by its name, and returns when it is closed.
-/// Without a display, or a GPU for it, the error is one sentence.
+/// Without a display, or a GPU for it, the error is one sentence. When the GPU is lost, the window
+/// is opened again on a new device, with scene and settings kept.
 pub fn run(scene: &Path, settings: Settings, adapter: Option<&str>) -> anyhow::Result<()> {
     if !device::has_display() {
         return Err(anyhow!("there is no display to open a window on; the subcommands work without one"));
     }
+    let rescue = Rescue::default();
+    open_window(adapter, &rescue, |context| App::new(context, scene, settings))?;
+    let mut opened = Instant::now();
+    while let Some(kept) = rescue.take() {
+        if opened.elapsed() < WORTH_ANOTHER_DEVICE {
+            return Err(anyhow!("{}", kept.cause));
+        }
+        opened = Instant::now();
+        open_window(adapter, &rescue, |context| App::again(context, kept))?;
+    }
+    Ok(())
+}
+
+/// Why a window has no app.
+type NoApp = Box<dyn std::error::Error + Send + Sync>;
+
+fn open_window(
+    adapter: Option<&str>,
+    rescue: &Rescue,
+    app: impl FnOnce(&eframe::CreationContext<'_>) -> Result<App, NoApp>,
+) -> anyhow::Result<()> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default().with_inner_size([1440.0, 900.0]).with_min_inner_size([640.0, 400.0]),
         renderer: eframe::Renderer::Wgpu,
         wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: device::setup(adapter), ..Default::default() },
         ..Default::default()
     };
-    let scene = scene.to_owned();
-    let create: eframe::AppCreator<'_> = Box::new(move |context| Ok(Box::new(App::new(context, &scene, settings)?)));
-    eframe::run_native("Octolume", options, create).map_err(|error| anyhow!("no window can be opened: {error}"))
+    let create: eframe::AppCreator<'_> =
+        Box::new(move |context| Ok(Box::new(App { rescue: rescue.clone(), ..app(context)? })));
+    eframe::run_native("Octolume", options, create).map_err(|error| match error {
+        eframe::Error::WinitEventLoop(_) => anyhow!("the display cannot be opened; the subcommands work without one"),
+        error => anyhow!("no window can be opened: {error}"),
+    })
 }
 
 /// The whole window.
@@ -86,15 +117,29 @@ pub struct App {
     render: egui_wgpu::RenderState,
     /// When the camera was moved last, on the window's clock.
     moved_at_secs: Option<f64>,
+    rescue: Rescue,
 }
 
 impl App {
     /// Takes the window's device, and starts to open the scene. Fails without a GPU.
-    pub fn new(
-        context: &eframe::CreationContext<'_>,
-        scene: &Path,
-        settings: Settings,
-    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+    pub fn new(context: &eframe::CreationContext<'_>, scene: &Path, settings: Settings) -> Result<Self, NoApp> {
+        let mut app = Self::empty(context, settings)?;
+        app.open(&context.egui_ctx, scene.to_owned());
+        Ok(app)
+    }
+
+    /// Takes the window's device after another was lost, and goes on where that one ended.
+    pub fn again(context: &eframe::CreationContext<'_>, kept: Kept) -> Result<Self, NoApp> {
+        let mut app = Self::empty(context, kept.settings)?;
+        if let Some(scene) = kept.scene {
+            app.stage.set_prepared(&scene.prepared);
+            app.scene = Some(scene);
+        }
+        app.journal.tell(Severity::Warning, format!("{}; everything goes on with a new device", kept.cause));
+        Ok(app)
+    }
+
+    fn empty(context: &eframe::CreationContext<'_>, settings: Settings) -> Result<Self, NoApp> {
         let render = context.wgpu_render_state.clone().ok_or("the window has no GPU")?;
         let gpu = Arc::new(Gpu::from_wgpu(&render.adapter, render.device.clone(), render.queue.clone()));
         theme::apply(&context.egui_ctx);
@@ -112,9 +157,9 @@ impl App {
             latency: Latency::new(render.device.clone()),
             render,
             moved_at_secs: None,
+            rescue: Rescue::default(),
         };
         gpu.warnings().into_iter().for_each(|warning| app.journal.tell(Severity::Warning, warning));
-        app.open(&context.egui_ctx, scene.to_owned());
         Ok(app)
     }
 

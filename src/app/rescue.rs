@@ -1,0 +1,48 @@
+//! What outlives a lost GPU. The window itself paints on that GPU, so it cannot ask whether to go on:
+//! it closes, and is opened again with what it kept.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::App;
+use super::loader::Ready;
+use crate::settings::Settings;
+
+/// Scene and settings of a window that lost its GPU.
+pub struct Kept {
+    pub(super) settings: Settings,
+    pub(super) scene: Option<Ready>,
+    /// One sentence.
+    pub(super) cause: String,
+}
+
+/// Where a window leaves what the next one goes on with.
+#[derive(Clone, Default)]
+pub struct Rescue(Arc<Mutex<Option<Kept>>>);
+
+impl Rescue {
+    pub fn take(&self) -> Option<Kept> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    fn leave(&self, kept: Kept) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(kept);
+    }
+}
+
+impl App {
+    /// Closes the window if its GPU is lost; whether it is.
+    pub(super) fn close_if_lost(&mut self, ctx: &egui::Context) -> bool {
+        if !self.gpu().is_lost() {
+            return false;
+        }
+        let cause = "the GPU was lost".to_owned();
+        self.rescue.leave(Kept { settings: self.settings.clone(), scene: self.scene.clone(), cause });
+        ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        true
+    }
+
+    /// What the next window goes on with, if this one lost its GPU.
+    pub fn rescued(&self) -> Option<Kept> {
+        self.rescue.take()
+    }
+}
