@@ -31,6 +31,8 @@ impl eframe::App for App {
         if self.wake_again(&ctx, clock_secs) {
             self.latency.continues(started);
         }
+        // Lost on the way: what was painted must not be uploaded.
+        self.close_if_lost(&ctx);
     }
 
     fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {

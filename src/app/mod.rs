@@ -67,8 +67,8 @@ pub fn run(scene: &Path, settings: Settings, adapter: Option<&str>) -> anyhow::R
         return Err(anyhow!("there is no display to open a window on; the subcommands work without one"));
     }
     let rescue = Rescue::default();
-    open_window(adapter, &rescue, |context| App::new(context, scene, settings))?;
     let mut opened = Instant::now();
+    open_window(adapter, &rescue, |context| App::new(context, scene, settings))?;
     while let Some(kept) = rescue.take() {
         if opened.elapsed() < WORTH_ANOTHER_DEVICE {
             return Err(anyhow!("{}", kept.cause));
@@ -93,8 +93,11 @@ fn open_window(
         wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: device::setup(adapter), ..Default::default() },
         ..Default::default()
     };
-    let create: eframe::AppCreator<'_> =
-        Box::new(move |context| Ok(Box::new(App { rescue: rescue.clone(), ..app(context)? })));
+    let create: eframe::AppCreator<'_> = Box::new(move |context| {
+        let mut app = app(context)?;
+        app.rescue = rescue.clone();
+        Ok(Box::new(app))
+    });
     eframe::run_native("Octolume", options, create).map_err(|error| match error {
         eframe::Error::WinitEventLoop(_) => anyhow!("the display cannot be opened; the subcommands work without one"),
         error => anyhow!("no window can be opened: {error}"),
@@ -132,6 +135,7 @@ impl App {
     pub fn again(context: &eframe::CreationContext<'_>, kept: Kept) -> Result<Self, NoApp> {
         let mut app = Self::empty(context, kept.settings)?;
         if let Some(scene) = kept.scene {
+            app.name_window(&context.egui_ctx, &scene.prepared);
             app.stage.set_prepared(&scene.prepared);
             app.scene = Some(scene);
         }
@@ -255,16 +259,14 @@ impl App {
                 self.settings.look.camera = None;
                 self.playback.pause();
             }
+            self.name_window(ctx, prepared);
             let name = &prepared.scene.name;
-            ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("Octolume — {name}")));
             let count = panels::grouped(prepared.voxel_count());
             self.journal
                 .note(Severity::Info, format!("Opened {name}: {count} voxels in {:.0} ms.", prepared.voxelize_ms));
             for warning in &prepared.warnings {
                 self.journal.note(Severity::Warning, warning);
             }
-            let source = prepared.scene.source.clone().unwrap_or_else(|| PathBuf::from(name));
-            self.desk.remember(source);
         }
         self.stage.set_prepared(prepared);
         let opens_with_its_camera = ready.is_new && self.settings.look.camera.is_none();
@@ -272,6 +274,14 @@ impl App {
         if opens_with_its_camera {
             self.look_through(0);
         }
+    }
+
+    fn name_window(&mut self, ctx: &egui::Context, prepared: &Prepared) {
+        let name = &prepared.scene.name;
+        ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("Octolume — {name}")));
+        let source = prepared.scene.source.clone().unwrap_or_else(|| PathBuf::from(name));
+        self.desk.path = source.display().to_string();
+        self.desk.remember(source);
     }
 
     /// Takes a camera of the file, if it has this one.

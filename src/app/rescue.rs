@@ -30,13 +30,17 @@ impl Rescue {
 }
 
 impl App {
-    /// Closes the window if its GPU is lost; whether it is.
+    /// Closes the window if its GPU is lost; whether it is. Nothing is painted then: egui-wgpu panics
+    /// when it uploads anything to a lost device.
     pub(super) fn close_if_lost(&mut self, ctx: &egui::Context) -> bool {
+        // A loss is told to those who poll; what else this returns is of no use here.
+        let _ = self.gpu().device.poll(wgpu::PollType::Poll);
         if !self.gpu().is_lost() {
             return false;
         }
         let cause = "the GPU was lost".to_owned();
         self.rescue.leave(Kept { settings: self.settings.clone(), scene: self.scene.clone(), cause });
+        ctx.graphics_mut(|painted| *painted = Default::default());
         ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         true
     }
