@@ -52,15 +52,14 @@ pub fn write_ply(file: &Path, voxels: &WorldVoxels, grid: &Grid) -> Result<(), E
 
 fn points(voxels: &WorldVoxels, grid: &Grid) -> Vec<Point> {
     let WorldVoxels { cells, occupancy, albedo, normal } = voxels;
-    let rest = occupancy.iter().zip(albedo).zip(normal);
-    let point = |(&cell, ((&occupancy, &albedo), &normal)): (&[i32; 3], ((&f32, &[f32; 3]), &[f32; 3]))| Point {
-        position: grid.corner() + (IVec3::from_array(cell).as_dvec3() + 0.5) * grid.span,
-        normal,
-        color: albedo.map(srgb_byte),
-        occupancy,
-        cell,
+    let point = |index: usize| Point {
+        position: grid.corner() + (IVec3::from_array(cells[index]).as_dvec3() + 0.5) * grid.span,
+        normal: normal[index],
+        color: albedo[index].map(srgb_byte),
+        occupancy: occupancy[index],
+        cell: cells[index],
     };
-    cells.iter().zip(rest).map(point).collect()
+    (0..cells.len()).map(point).collect()
 }
 
 struct Point {
