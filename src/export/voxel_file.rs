@@ -13,8 +13,8 @@ use super::{ExportError, write_file};
 use crate::data::grid::Grid;
 use crate::engine::WorldVoxels;
 
-/// Writes `cells` int32 [n, 3], `occupancy` float32 [n], `albedo` (linear) and `normal` float32
-/// [n, 3], `grid_corner` float64 [3], `span` float64.
+/// Writes `cells` int32 `[n, 3]`, `occupancy` float32 `[n]`, `albedo` (linear) and `normal` float32
+/// `[n, 3]`, `grid_corner` float64 `[3]`, `span` float64.
 pub fn write_npz(file: &Path, voxels: &WorldVoxels, grid: &Grid) -> Result<(), ExportError> {
     let bytes = npz(voxels, grid).map_err(|error| ExportError::new(file, error))?;
     write_file(file, &bytes)
