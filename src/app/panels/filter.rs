@@ -37,14 +37,13 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
         let values = costs.map(|cost| cost.as_ref().and_then(value));
         row_ui(ui, name, tip, values, settings.discretization.filter, row_color(name));
     }
-    if let Some(exact) = report.and_then(|report| report.exact_cells) {
-        let shares = |part: fn(&FilterReport) -> Option<u64>| {
-            costs.map(|cost| cost.as_ref().and_then(part).map(|cells| percent(cells, exact)))
-        };
-        let missed = shares(|cost| cost.holes);
-        let tip = format!("Holes as a share of the {} exact cells.", grouped(exact));
-        row_ui(ui, "Missed", &tip, missed, settings.discretization.filter, None);
-    }
+    let exact_cells = report.and_then(|report| report.exact_cells);
+    let share = |cost: Option<FilterReport>| Some(percent(cost?.holes?, exact_cells?));
+    let tip = match exact_cells {
+        Some(exact) => format!("Holes as a share of the {} exact cells.", grouped(exact)),
+        None => "Holes as a share of the exact cells; known once measured.".to_owned(),
+    };
+    row_ui(ui, "Missed", &tip, costs.map(share), settings.discretization.filter, None);
     commands.extend(measure_ui(ui, settings));
     commands
 }
