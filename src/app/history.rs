@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use crate::gpu::KernelTiming;
+use crate::plan::{FramePlan, Pass, Row, State};
 
 /// Frames kept.
 pub const LENGTH: usize = 120;
@@ -13,17 +14,28 @@ pub struct FrameHistory {
 }
 
 impl FrameHistory {
-    pub fn push(&mut self, timings: &[KernelTiming]) {
+    /// Adds a frame: of all results that are there, the times of those it made itself.
+    pub fn push(&mut self, timings: &[KernelTiming], plan: &FramePlan) {
         if self.gpu_ms.len() == LENGTH {
             self.gpu_ms.pop_front();
         }
-        self.gpu_ms.push_back(total_ms(timings));
+        self.gpu_ms.push_back(timings.iter().filter(|timing| has_run(timing, plan)).map(|timing| timing.ms).sum());
     }
 
     /// GPU milliseconds of each frame, oldest first.
     pub fn gpu_ms(&self) -> impl ExactSizeIterator<Item = f64> {
         self.gpu_ms.iter().copied()
     }
+}
+
+/// Whether a frame of this plan ran the kernel itself. Clears and copies belong to the build.
+pub fn has_run(timing: &KernelTiming, plan: &FramePlan) -> bool {
+    let of_pass = |row: &Row| row.pass.kernels().contains(&timing.kernel.as_str());
+    let mut passes = plan.rows.iter().filter(|row| of_pass(row)).peekable();
+    if passes.peek().is_none() {
+        return plan.runs(Pass::MarkLeaves);
+    }
+    passes.any(|row| row.state == State::Run)
 }
 
 pub fn total_ms(timings: &[KernelTiming]) -> f64 {
@@ -65,11 +77,26 @@ mod tests {
         assert_eq!(total_ms(&timings), 6.0);
     }
 
+    fn plan(run: &[Pass]) -> FramePlan {
+        let state = |pass: &Pass| if run.contains(pass) { State::Run } else { State::Reuse };
+        FramePlan { rows: Pass::ALL.iter().map(|pass| Row { pass: *pass, state: state(pass), reason: "" }).collect() }
+    }
+
     #[test]
     fn old_frames_are_forgotten() {
         let mut history = FrameHistory::default();
-        (0..LENGTH + 1).for_each(|frame| history.push(&[timing("a", frame as f64)]));
+        (0..LENGTH + 1)
+            .for_each(|frame| history.push(&[timing("build/mark", frame as f64)], &plan(&[Pass::MarkLeaves])));
         assert_eq!(history.gpu_ms().len(), LENGTH);
         assert_eq!(history.gpu_ms().next(), Some(1.0));
+    }
+
+    #[test]
+    fn a_frame_of_the_view_alone_counts_the_view_alone() {
+        let timings = [timing("clear leaf bits", 1.0), timing("build/mark", 2.0), timing("view/march", 4.0)];
+        let mut history = FrameHistory::default();
+        history.push(&timings, &plan(&[Pass::MarkLeaves, Pass::MarchVoxels]));
+        history.push(&timings, &plan(&[Pass::MarchVoxels]));
+        assert_eq!(history.gpu_ms().collect::<Vec<_>>(), [7.0, 4.0]);
     }
 }

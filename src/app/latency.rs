@@ -14,6 +14,8 @@ use std::time::{Duration, Instant};
 const HISTORY: usize = 240;
 /// A frame that is not painted within this time (a minimised window) is not counted.
 const WATCH: Duration = Duration::from_secs(2);
+/// Input is expected to go on for so long after the last.
+const UNDER_INPUT: Duration = Duration::from_millis(500);
 const WATCH_STEP: Duration = Duration::from_millis(1);
 
 /// Input-to-paint times of the last frames that had input.
@@ -22,13 +24,14 @@ pub struct Latency {
     watcher: Sender<Weak<WatchedFrame>>,
     /// Start of the frame before, if the window went on to this one without a pause.
     busy_since: Option<Instant>,
+    last_input: Option<Instant>,
 }
 
 impl Latency {
     pub fn new(device: wgpu::Device) -> Self {
         let (watcher, frames) = channel();
         std::thread::spawn(move || watch(&device, &frames));
-        Self { samples_ms: Arc::default(), watcher, busy_since: None }
+        Self { samples_ms: Arc::default(), watcher, busy_since: None, last_input: None }
     }
 
     /// Called once a frame, when its input is known. Paints nothing.
@@ -38,6 +41,7 @@ impl Latency {
         if ui.input(|input| input.raw.events.is_empty()) {
             return;
         }
+        self.last_input = Some(now);
         let frame = Arc::new(WatchedFrame { from, done: AtomicBool::default(), samples_ms: self.samples_ms.clone() });
         // Without its thread nothing is measured, and nothing else is lost.
         let _ = self.watcher.send(Arc::downgrade(&frame));
@@ -47,6 +51,11 @@ impl Latency {
     /// Called at the end of a frame that asks for another one at once.
     pub fn continues(&mut self, frame_start: Instant) {
         self.busy_since = Some(frame_start);
+    }
+
+    /// Somebody is at work: there was input a moment ago.
+    pub fn is_under_input(&self) -> bool {
+        self.last_input.is_some_and(|last| last.elapsed() < UNDER_INPUT)
     }
 
     /// How many of the last inputs were measured.

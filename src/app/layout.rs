@@ -87,9 +87,8 @@ impl App {
         commands.extend(section(ui, "Discretization", true, |ui| {
             panels::discretization::ui(ui, &settings.discretization, grid.map(|grid| grid.span))
         }));
-        commands.extend(section(ui, "Filter", true, |ui| {
-            panels::filter::ui(ui, settings, self.stage.engine.accuracy().as_ref())
-        }));
+        commands
+            .extend(section(ui, "Filter", true, |ui| panels::filter::ui(ui, settings, self.stage.accuracy.as_ref())));
         commands.extend(section(ui, "View", true, |ui| {
             let cameras = self.scene.as_ref().map_or(&[][..], |ready| &ready.prepared.scene.cameras);
             let depth = grid.map_or(settings.discretization.depth(), |grid| grid.depth);
@@ -105,11 +104,11 @@ impl App {
     fn measurements_ui(&self, ui: &mut Ui) -> Vec<Command> {
         let stage = &self.stage;
         let mut commands = section(ui, "Timings", true, |ui| {
-            panels::timings::ui(ui, &stage.timings, &stage.history, &self.latency);
+            panels::timings::ui(ui, (&stage.timings, &stage.plan), &stage.history, &self.latency);
             Vec::new()
         });
         commands.extend(section(ui, "Octree", true, |ui| {
-            panels::octree::ui(ui, stage.engine.octree_report().as_ref(), self.settings.look.level);
+            panels::octree::ui(ui, stage.octree.as_ref(), self.settings.look.level);
             Vec::new()
         }));
         commands.extend(section(ui, "Frame plan", true, |ui| {

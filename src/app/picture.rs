@@ -15,7 +15,7 @@ impl App {
         let camera = self.camera(full_px);
         let (settings, size_px) = self.wanted_picture(ui, full_px, clock_secs);
         if self.scene.is_some()
-            && let Err(error) = self.stage.advance(&settings, size_px)
+            && let Err(error) = self.stage.advance(&settings, size_px, self.latency.is_under_input())
         {
             self.journal.tell(Severity::Error, error);
             self.screenshots.give_up();

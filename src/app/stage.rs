@@ -5,14 +5,16 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::history::FrameHistory;
-use crate::engine::{Engine, EngineError, EngineState};
+use crate::engine::{AccuracyReport, Engine, EngineError, EngineState, OctreeReport};
 use crate::gpu::{Gpu, GpuTexture, KernelTiming};
 use crate::plan::FramePlan;
 use crate::prepare::{ExactVoxels, Prepared};
 use crate::settings::Settings;
 
-/// GPU time of a frame of the window: what keeps input to paint short.
+/// GPU time of a frame of the window that nobody touches.
 const BUDGET: Duration = Duration::from_millis(30);
+/// The same while input arrives: the next input waits for this, and for the frame after it.
+const BUDGET_UNDER_INPUT: Duration = Duration::from_millis(15);
 
 pub struct Stage {
     pub engine: Engine,
@@ -21,6 +23,9 @@ pub struct Stage {
     pub timings: Vec<KernelTiming>,
     /// Of the last frame that had anything to do.
     pub plan: FramePlan,
+    /// Of the last octree that was finished.
+    pub octree: Option<OctreeReport>,
+    pub accuracy: Option<AccuracyReport>,
     state: State,
     /// What the engine was asked for last.
     asked: Option<(Settings, [u32; 2])>,
@@ -48,6 +53,8 @@ impl Stage {
             history: FrameHistory::default(),
             timings: Vec::new(),
             plan: FramePlan::default(),
+            octree: None,
+            accuracy: None,
             state: State::Idle,
             asked: None,
             ms_per_pixel: 0.0,
@@ -59,6 +66,7 @@ impl Stage {
     pub fn set_prepared(&mut self, prepared: &Arc<Prepared>) {
         self.engine.set_prepared(Some(Arc::clone(prepared)));
         (self.state, self.asked, self.finished) = (State::Idle, None, None);
+        (self.octree, self.accuracy) = (None, None);
     }
 
     pub fn set_exact(&mut self, exact: Option<Arc<ExactVoxels>>) {
@@ -66,13 +74,15 @@ impl Stage {
         self.asked = None;
     }
 
-    /// Asks for a picture and works on it for a while. An error is told once, as one sentence.
-    pub fn advance(&mut self, settings: &Settings, size_px: [u32; 2]) -> Result<(), String> {
+    /// Asks for a picture and works on it for a while, shorter while input arrives. An error is told
+    /// once, as one sentence.
+    pub fn advance(&mut self, settings: &Settings, size_px: [u32; 2], input: bool) -> Result<(), String> {
         let asked = self.asked.as_ref().is_some_and(|(asked, asked_px)| asked == settings && *asked_px == size_px);
         if size_px.contains(&0) || asked && !matches!(self.state, State::Working { .. }) {
             return Ok(());
         }
-        match self.ask(settings, size_px, asked).and_then(|()| self.engine.advance(BUDGET)) {
+        let budget = if input { BUDGET_UNDER_INPUT } else { BUDGET };
+        match self.ask(settings, size_px, asked).and_then(|()| self.engine.advance(budget)) {
             Ok(EngineState::Working { fraction }) => {
                 self.state = State::Working { fraction };
                 self.plan.clone_from(self.engine.plan());
@@ -125,7 +135,9 @@ impl Stage {
     /// Takes down what the frame has cost.
     fn finish(&mut self) {
         self.timings = self.engine.timings();
-        self.history.push(&self.timings);
+        self.octree = self.engine.octree_report();
+        self.accuracy = self.engine.accuracy();
+        self.history.push(&self.timings, &self.plan);
         let view = self.timings.iter().filter(|timing| timing.kernel.starts_with("view/"));
         let view_ms: f64 = view.map(|timing| timing.ms).sum();
         self.finished = self.engine.image().cloned();

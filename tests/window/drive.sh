@@ -15,9 +15,9 @@ mkdir -p "$3"
 folder=$(realpath "$3")
 
 # Places in a window of 1440 x 900, as it opens.
-readonly NEAREST="133 470" SPLIT="230 470" MEASURE="15 641"
-readonly VOXELS="114 709" MESH="164 709" GHOST="211 709"
-readonly LEVEL_LEAVES="214 733" LEVEL_MIDDLE="150 733"
+readonly NEAREST="133 470" SPLIT="230 470" MEASURE="15 661"
+readonly VOXELS="114 729" MESH="164 729" GHOST="211 729"
+readonly LEVEL_LEAVES="214 753" LEVEL_MIDDLE="150 753"
 readonly TIME_START="342 882" TIME_MIDDLE="700 882"
 readonly VIEW_MIDDLE="690 460" VIEW_ASIDE="810 520" SCREENSHOT="1278 17"
 # The picture alone, without the texts over it.

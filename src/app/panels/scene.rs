@@ -88,7 +88,8 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
         fact(ui, "Objects", &objects, "Nodes with a mesh, by how they move.");
         fact(ui, "Triangles", &grouped(triangles as u64), "Of all objects; instances count each.");
         let counts = [(scene.skins.len(), "skin"), (joints, "joint"), (scene.clips.len(), "clip")];
-        let motion = counts.map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" })).join(", ");
+        let motion =
+            counts.map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" })).join(", ");
         fact(ui, "Motion", &motion, "Skeletons that move meshes, and animations of the file.");
         fact(ui, "Size", &size, "Posed bounds over all animation, in scene units.");
         let caches = format!("{}, {}, {:.0} ms", grouped(cached), bytes(cache_bytes), prepared.voxelize_ms);

@@ -35,7 +35,7 @@ impl Cell {
     fn show(&self, ui: &mut Ui) {
         if self.bar > 0.0 {
             let cell = ui.max_rect();
-            let bar = Rect::from_x_y_ranges(cell.right() - self.bar * cell.width()..=cell.right(), cell.y_range());
+            let bar = Rect::from_x_y_ranges(cell.left()..=cell.left() + self.bar * cell.width(), cell.y_range());
             ui.painter().rect_filled(bar.shrink2(vec2(0.0, 1.5)), 1.0, theme::ACCENT.gamma_multiply(0.45));
         }
         let text = RichText::new(&self.text).color(self.color.unwrap_or(ui.visuals().text_color()));

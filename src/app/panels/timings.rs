@@ -1,16 +1,18 @@
 //! GPU time per kernel of the last frame that ran, what it moved, and the frames before.
 
 use egui::{RichText, Ui};
-use egui_plot::{Bar, BarChart, Plot};
+use egui_plot::{Bar, BarChart, GridMark, Plot};
 
 use super::table::{self, Cell};
 use super::{bytes, grouped, milliseconds, nothing};
-use crate::app::history::{FrameHistory, LENGTH, by_kernel, total_ms};
+use crate::app::history::{FrameHistory, LENGTH, by_kernel, has_run, total_ms};
 use crate::app::latency::Latency;
 use crate::app::theme;
 use crate::gpu::KernelTiming;
+use crate::plan::FramePlan;
 
-pub fn ui(ui: &mut Ui, timings: &[KernelTiming], history: &FrameHistory, latency: &Latency) {
+/// `timings`: of the results on screen, which frames before the last may have made.
+pub fn ui(ui: &mut Ui, (timings, plan): (&[KernelTiming], &FramePlan), history: &FrameHistory, latency: &Latency) {
     latency_ui(ui, latency);
     if timings.is_empty() {
         nothing(ui, "No frame has run on the GPU yet.");
@@ -19,12 +21,12 @@ pub fn ui(ui: &mut Ui, timings: &[KernelTiming], history: &FrameHistory, latency
     history_ui(ui, history);
     let total = total_ms(timings);
     let mut rows = vec![vec![
-        Cell::new("Last frame").color(theme::STRONG),
+        Cell::new("All on screen").color(theme::STRONG).tip("Bright: run by the last frame. Grey: kept from before."),
         Cell::new(milliseconds(total)).color(theme::STRONG),
         Cell::new(""),
         Cell::new(""),
     ]];
-    rows.extend(by_kernel(timings).iter().map(|kernel| row(kernel, total)));
+    rows.extend(by_kernel(timings).iter().map(|kernel| row(kernel, total, has_run(kernel, plan))));
     table::show(ui, "timings", &[("kernel", 0.0), ("ms", 44.0), ("share", 52.0), ("GB/s", 40.0)], rows);
 }
 
@@ -46,6 +48,8 @@ fn latency_ui(ui: &mut Ui, latency: &Latency) {
 fn history_ui(ui: &mut Ui, history: &FrameHistory) {
     let bars = history.gpu_ms().enumerate().map(|(frame, ms)| Bar::new(frame as f64, ms).width(0.8));
     let chart = BarChart::new("GPU time", bars.collect()).color(theme::ACCENT).allow_hover(false);
+    let most = history.gpu_ms().fold(1.0, f64::max);
+    let marks = move |_| [0.0, most / 2.0, most].map(|value| GridMark { value, step_size: most }).to_vec();
     let plot = Plot::new("gpu history")
         .height(72.0)
         .allow_drag(false)
@@ -58,22 +62,23 @@ fn history_ui(ui: &mut Ui, history: &FrameHistory) {
         .include_x(0.0)
         .include_x(LENGTH as f64)
         .include_y(0.0)
+        .y_grid_spacer(marks)
+        .y_axis_formatter(|mark, _| milliseconds(mark.value))
         .show_grid([false, true])
         .set_margin_fraction(egui::vec2(0.01, 0.08));
     let response = plot.show(ui, |plot| plot.bar_chart(chart)).response;
     response.on_hover_text("GPU milliseconds of the last frames that ran.");
 }
 
-fn row(kernel: &KernelTiming, total_ms: f64) -> Vec<Cell> {
+fn row(kernel: &KernelTiming, total_ms: f64, has_run: bool) -> Vec<Cell> {
     let share = if total_ms > 0.0 { kernel.ms / total_ms } else { 0.0 };
     let rate = kernel.bytes_moved as f64 / (kernel.ms * 1e6);
     let tip =
         format!("{}: {} threads, must move {}", kernel.kernel, grouped(kernel.threads), bytes(kernel.bytes_moved));
-    let is_copy = ["clear ", "copy "].iter().any(|kind| kernel.kernel.starts_with(kind));
-    let name = Cell::new(&kernel.kernel).color(if is_copy { theme::WEAK } else { theme::STRONG });
+    let color = if has_run { theme::STRONG } else { theme::WEAK };
     vec![
-        name.tip(tip),
-        milliseconds(kernel.ms).into(),
+        Cell::new(&kernel.kernel).color(color).tip(tip),
+        Cell::new(milliseconds(kernel.ms)).color(color),
         Cell::new(format!("{:.0} %", share * 100.0)).bar(share as f32),
         if kernel.bytes_moved > 0 && rate.is_finite() { Cell::new(format!("{rate:.1}")) } else { Cell::new("–") },
     ]
