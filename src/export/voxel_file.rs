@@ -51,16 +51,17 @@ pub fn write_ply(file: &Path, voxels: &WorldVoxels, grid: &Grid) -> Result<(), E
 }
 
 fn points(voxels: &WorldVoxels, grid: &Grid) -> Vec<Point> {
-    let WorldVoxels { cells, occupancy, albedo, normal } = voxels;
-    let rest = occupancy.iter().zip(albedo).zip(normal);
-    let point = |(&cell, ((&occupancy, &albedo), &normal)): (&[i32; 3], ((&f32, &[f32; 3]), &[f32; 3]))| Point {
-        position: grid.corner() + (IVec3::from_array(cell).as_dvec3() + 0.5) * grid.span,
-        normal,
-        color: albedo.map(srgb_byte),
-        occupancy,
-        cell,
+    let point = |index: usize| {
+        let cell = voxels.cells[index];
+        Point {
+            position: grid.corner() + (IVec3::from_array(cell).as_dvec3() + 0.5) * grid.span,
+            normal: voxels.normal[index],
+            color: voxels.albedo[index].map(srgb_byte),
+            occupancy: voxels.occupancy[index],
+            cell,
+        }
     };
-    cells.iter().zip(rest).map(point).collect()
+    (0..voxels.cells.len()).map(point).collect()
 }
 
 struct Point {
