@@ -249,7 +249,6 @@ fn measuring_shows_holes_and_spill_of_both_filters() {
     let mut window = Window::open("courtyard");
     window.set("Turn y", 10.0);
     window.click("Measure both filters");
-    assert!(window.0.query_by_label("Missed").is_some(), "the share of missed cells is shown");
     let values: Vec<_> = window.0.get_all_by_label_contains(" %").filter_map(|node| node.value()).collect();
     // Shares of time have no decimals.
     let shares = values.iter().filter(|value| value.contains('.')).count();

@@ -75,6 +75,14 @@ fn shown(linear: [f32; 4]) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
+/// A line of text on a dark ground, inside the corner that `align` names.
+pub fn caption(painter: &Painter, at: Pos2, align: Align2, text: &str) {
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(11.0), theme::STRONG);
+    let rect = align.anchor_size(at, galley.size());
+    painter.rect_filled(rect.expand2(vec2(6.0, 2.0)), 3.0, Color32::from_black_alpha(140));
+    painter.galley(rect.min, galley, theme::STRONG);
+}
+
 /// Legible over any picture.
 fn text(painter: &Painter, at: Pos2, align: Align2, text: &str) {
     let font = FontId::proportional(11.0);

@@ -104,19 +104,17 @@ impl App {
 
     fn overlay_ui(&self, ui: &Ui, rect: Rect, size_px: [u32; 2], full_px: [u32; 2]) {
         let painter = ui.painter_at(rect);
-        let small = FontId::proportional(11.0);
         if let Some(error) = self.stage.error() {
             painter.text(rect.center(), Align2::CENTER_CENTER, error, FontId::proportional(13.0), theme::ERROR);
         } else if self.scene.is_none() {
             let text = if self.loader.progress().is_some() { "Opening…" } else { "No scene is open" };
             painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(15.0), theme::WEAK);
         }
-        let corner = rect.left_bottom() + vec2(10.0, -8.0);
         let hint = "drag: orbit   right drag: pan   wheel: zoom   F: frame all";
-        painter.text(corner, Align2::LEFT_BOTTOM, hint, small.clone(), theme::WEAK);
+        legend::caption(&painter, rect.left_bottom() + vec2(14.0, -10.0), Align2::LEFT_BOTTOM, hint);
         let coarse = if size_px == full_px { "" } else { ", coarse" };
         let size = format!("{} × {} px{coarse}", size_px[0], size_px[1]);
-        painter.text(rect.right_bottom() + vec2(-10.0, -8.0), Align2::RIGHT_BOTTOM, size, small, theme::WEAK);
+        legend::caption(&painter, rect.right_bottom() + vec2(-14.0, -10.0), Align2::RIGHT_BOTTOM, &size);
         legend::paint(&painter, rect, &self.settings.look);
     }
 }

@@ -13,8 +13,8 @@ use super::{ExportError, write_file};
 use crate::data::grid::Grid;
 use crate::engine::WorldVoxels;
 
-/// Writes `cells` int32 [n, 3], `occupancy` float32 [n], `albedo` (linear) and `normal` float32
-/// [n, 3], `grid_corner` float64 [3], `span` float64.
+/// Writes `cells` int32 `[n, 3]`, `occupancy` float32 `[n]`, `albedo` (linear) and `normal` float32
+/// `[n, 3]`, `grid_corner` float64 `[3]`, `span` float64.
 pub fn write_npz(file: &Path, voxels: &WorldVoxels, grid: &Grid) -> Result<(), ExportError> {
     let bytes = npz(voxels, grid).map_err(|error| ExportError::new(file, error))?;
     write_file(file, &bytes)
@@ -51,17 +51,15 @@ pub fn write_ply(file: &Path, voxels: &WorldVoxels, grid: &Grid) -> Result<(), E
 }
 
 fn points(voxels: &WorldVoxels, grid: &Grid) -> Vec<Point> {
-    let point = |index: usize| {
-        let cell = voxels.cells[index];
-        Point {
-            position: grid.corner() + (IVec3::from_array(cell).as_dvec3() + 0.5) * grid.span,
-            normal: voxels.normal[index],
-            color: voxels.albedo[index].map(srgb_byte),
-            occupancy: voxels.occupancy[index],
-            cell,
-        }
+    let WorldVoxels { cells, occupancy, albedo, normal } = voxels;
+    let point = |index: usize| Point {
+        position: grid.corner() + (IVec3::from_array(cells[index]).as_dvec3() + 0.5) * grid.span,
+        normal: normal[index],
+        color: albedo[index].map(srgb_byte),
+        occupancy: occupancy[index],
+        cell: cells[index],
     };
-    (0..voxels.cells.len()).map(point).collect()
+    (0..cells.len()).map(point).collect()
 }
 
 struct Point {

@@ -1,33 +1,123 @@
 #!/usr/bin/env bash
-# Drives the real window by mouse and keyboard on a display of its own, and photographs every step.
-# Fails if the window does not open, a photo is uniform, or a control that must change the picture
-# does not.
+# Drives the real window by mouse and keyboard on a display of its own: filter, timeline, level,
+# view and screenshot. Photographs every step into FOLDER. Fails if the window does not open, a
+# photo is uniform, or a control that must change the picture does not.
 #
 #   tests/window/drive.sh PROGRAM SCENE FOLDER
 #
-# Needs Xvfb, xdotool and ImageMagick. Places are those of a window of 1440 x 900.
+# Needs Xvfb, xdotool and ImageMagick. SCENE is a file with an animation, or a built-in scene.
 set -euo pipefail
 
 program=$(realpath "$1")
 scene=$2
-[[ -e $scene ]] && scene=$(realpath "$scene")
+if [[ -e $scene ]]; then scene=$(realpath "$scene"); fi
 mkdir -p "$3"
 folder=$(realpath "$3")
 
-readonly VIEW=760x730+300+90
-readonly NEAREST="133 0" SPLIT="230 0"
+# Places in a window of 1440 x 900, as it opens.
+readonly NEAREST="133 470" SPLIT="230 470" MEASURE="15 641"
+readonly VOXELS="114 709" MESH="164 709" GHOST="211 709"
+readonly LEVEL_LEAVES="214 733" LEVEL_MIDDLE="150 733"
+readonly TIME_START="342 882" TIME_MIDDLE="700 882"
+readonly VIEW_MIDDLE="690 460" VIEW_ASIDE="810 520" SCREENSHOT="1278 17"
+# The picture alone, without the texts over it.
+readonly VIEW=770x740+300+80
+readonly PATIENCE_SECS=120
+# Fewer pixels are dust, not another picture.
+readonly CHANGED_PX=300
 
-fail() { echo "drive.sh: $1" >&2; exit 1; }
+fail() {
+    echo "drive.sh: $1" >&2
+    tail -n 5 "$folder/program.log" >&2 || true
+    exit 1
+}
 
-# A display with a number nobody uses.
-exec 3<> <(:)
-mkfifo "$folder/display"
-Xvfb -displayfd 1 -screen 0 1440x900x24 >"$folder/display" 2>/dev/null &
+photograph() { import -window root "$folder/$1.png"; }
+
+crop() { convert "$folder/$1.png" -crop "$VIEW" +repage "$folder/$1.view.png"; }
+
+# How many pixels of the picture differ between two photos.
+difference() {
+    crop "$1"; crop "$2"
+    # compare says "different" with exit code 1, and writes the count to standard error.
+    { compare -metric AE "$folder/$1.view.png" "$folder/$2.view.png" null: 2>&1 || true; } | awk '{ printf "%d", $1 }'
+}
+
+# Photographs until the whole window stays the same for a while: nothing is built or drawn any more.
+photograph_at_rest() {
+    local until=$((SECONDS + PATIENCE_SECS)) still=0 last="" now
+    while ((still < 3)); do
+        ((SECONDS < until)) || fail "the window does not come to rest before $1"
+        kill -0 "$window" 2>/dev/null || fail "the window closed before $1"
+        sleep 0.5
+        photograph "$1"
+        now=$(convert "$folder/$1.png" rgb:- | sha256sum)
+        if [[ $now == "$last" ]]; then still=$((still + 1)); else still=0; fi
+        last=$now
+    done
+    crop "$1"
+    (($(identify -format %k "$folder/$1.view.png") > 20)) || fail "the picture of $1 is uniform"
+    echo "$1: photographed"
+}
+
+must_change() {
+    local pixels
+    pixels=$(difference "$1" "$2")
+    ((pixels >= CHANGED_PX)) || fail "from $1 to $2 only $pixels pixels of the picture changed"
+    echo "$2: $pixels pixels changed from $1"
+}
+
+must_equal() {
+    local pixels
+    pixels=$(difference "$1" "$2")
+    ((pixels == 0)) || fail "$pixels pixels of the picture differ between $1 and $2"
+    echo "$2: same picture as $1"
+}
+
+# Slow enough that press, move and release come in frames of their own, also on a busy machine.
+# Pointer away from every control afterwards, so that no tooltip lies over the picture.
+click() { xdotool mousemove $1 sleep 0.5 click 1 sleep 0.5 mousemove 1200 860; }
+
+drag() {
+    xdotool mousemove $1 sleep 0.5 mousedown 1 sleep 0.5 mousemove $2 sleep 0.5 mouseup 1 sleep 0.5 mousemove 1200 860
+}
+
+Xvfb -displayfd 3 -screen 0 1440x900x24 3>"$folder/display" 2>/dev/null &
 server=$!
-read -r number <"$folder/display"
-rm "$folder/display"
-export DISPLAY=:$number
+trap 'kill "${window:-}" "$server" 2>/dev/null; wait 2>/dev/null || true' EXIT
+for _ in {1..50}; do [[ -s $folder/display ]] && break; sleep 0.1; done
+DISPLAY=:$(<"$folder/display")
+export DISPLAY
+rm "$folder/display" "$folder"/*.png 2>/dev/null || true
 
 (cd "$folder" && exec "$program" "$scene") >"$folder/program.log" 2>&1 &
-window_process=$!
-trap 'kill $window_process $server 2>/dev/null; wait 2>/dev/null' EXIT
+window=$!
+id=$(timeout "$PATIENCE_SECS" xdotool search --sync --onlyvisible --name '^Octolume' | head -n 1) || fail "the window did not open"
+# There is no window manager that would give it the keyboard.
+xdotool windowfocus --sync "$id"
+
+photograph_at_rest 01-opened
+click "$NEAREST"; photograph_at_rest 02-nearest; must_change 01-opened 02-nearest
+click "$SPLIT"; photograph_at_rest 03-split; must_equal 01-opened 03-split
+
+drag "$TIME_START" "$TIME_MIDDLE"; photograph_at_rest 04-scrubbed; must_change 03-split 04-scrubbed
+xdotool key Right key Right; photograph_at_rest 05-stepped; must_change 04-scrubbed 05-stepped
+xdotool key space sleep 2 key space; photograph_at_rest 06-played; must_change 05-stepped 06-played
+
+drag "$LEVEL_LEAVES" "$LEVEL_MIDDLE"; photograph_at_rest 07-level; must_change 06-played 07-level
+drag "$LEVEL_MIDDLE" "$LEVEL_LEAVES"; photograph_at_rest 08-leaves; must_equal 06-played 08-leaves
+
+click "$MESH"; photograph_at_rest 09-mesh; must_change 08-leaves 09-mesh
+click "$GHOST"; photograph_at_rest 10-ghost; must_change 09-mesh 10-ghost
+click "$VOXELS"; click "$MEASURE"; photograph_at_rest 11-measured; must_equal 08-leaves 11-measured
+
+drag "$VIEW_MIDDLE" "$VIEW_ASIDE"; photograph_at_rest 12-orbited; must_change 11-measured 12-orbited
+xdotool key f; photograph_at_rest 13-framed; must_change 12-orbited 13-framed
+
+click "$SCREENSHOT"; sleep 1; xdotool key ctrl+s; photograph_at_rest 14-saved
+shots=("$folder"/octolume-*.png)
+((${#shots[@]} == 2)) || fail "two screenshots were asked for, there are ${#shots[@]}"
+for shot in "${shots[@]}"; do
+    (($(identify -format %k "$shot") > 20)) || fail "$shot is uniform"
+done
+echo "drive.sh: all steps done, photos in $folder"

@@ -8,6 +8,9 @@ use crate::app::theme;
 use crate::engine::{AccuracyReport, FilterReport};
 use crate::settings::{Filter, Settings};
 
+/// Name, what it means, and its value for one filter.
+type CostRow = (&'static str, &'static str, fn(&FilterReport) -> Option<String>);
+
 const NAME_WIDTH: f32 = 72.0;
 
 /// `report`: of the pose on screen; the filter not shown is in it where both are measured.
@@ -17,7 +20,7 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
     ui.spacing_mut().item_spacing.y = 2.0;
     commands.extend(switch_ui(ui, settings));
     ui.add_space(3.0);
-    let rows: [(&str, &str, fn(&FilterReport) -> Option<String>); 7] = [
+    let rows: [CostRow; 7] = [
         ("GPU time", "Kernel milliseconds of a full rebuild with this filter.", |cost| {
             Some(format!("{} ms", milliseconds(cost.kernel_ms)))
         }),
@@ -34,14 +37,13 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
         let values = costs.map(|cost| cost.as_ref().and_then(value));
         row_ui(ui, name, tip, values, settings.discretization.filter, row_color(name));
     }
-    if let Some(exact) = report.and_then(|report| report.exact_cells) {
-        let shares = |part: fn(&FilterReport) -> Option<u64>| {
-            costs.map(|cost| cost.as_ref().and_then(part).map(|cells| percent(cells, exact)))
-        };
-        let missed = shares(|cost| cost.holes);
-        let tip = format!("Holes as a share of the {} exact cells.", grouped(exact));
-        row_ui(ui, "Missed", &tip, missed, settings.discretization.filter, None);
-    }
+    let exact_cells = report.and_then(|report| report.exact_cells);
+    let share = |cost: Option<FilterReport>| Some(percent(cost?.holes?, exact_cells?));
+    let tip = match exact_cells {
+        Some(exact) => format!("Holes as a share of the {} exact cells.", grouped(exact)),
+        None => "Holes as a share of the exact cells; known once measured.".to_owned(),
+    };
+    row_ui(ui, "Missed", &tip, costs.map(share), settings.discretization.filter, None);
     commands.extend(measure_ui(ui, settings));
     commands
 }

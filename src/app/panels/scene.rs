@@ -78,8 +78,6 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
         format!("{:.3} × {:.3} × {:.3}", size.x, size.y, size.z)
     });
     Grid::new("scene facts").num_columns(2).spacing([10.0, 2.0]).show(ui, |ui| {
-        let source = scene.source.as_deref().map_or("built in".to_owned(), |path| path.display().to_string());
-        fact(ui, "Name", &scene.name, &source);
         let objects = format!(
             "{} ({} static, {} rigid, {} skinned)",
             grouped(prepared.objects.len() as u64),
@@ -89,14 +87,15 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
         );
         fact(ui, "Objects", &objects, "Nodes with a mesh, by how they move.");
         fact(ui, "Triangles", &grouped(triangles as u64), "Of all objects; instances count each.");
-        fact(ui, "Skins", &format!("{} with {joints} joints", scene.skins.len()), "Skeletons that move meshes.");
-        fact(ui, "Clips", &scene.clips.len().to_string(), "Animations of the file.");
+        let counts = [(scene.skins.len(), "skin"), (joints, "joint"), (scene.clips.len(), "clip")];
+        let motion = counts.map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" })).join(", ");
+        fact(ui, "Motion", &motion, "Skeletons that move meshes, and animations of the file.");
         fact(ui, "Size", &size, "Posed bounds over all animation, in scene units.");
-        let caches = format!("{} in {}", grouped(cached), bytes(cache_bytes));
-        fact(ui, "Voxels", &caches, "Of all caches: objects of one mesh and stretch share theirs.");
-        let time = format!("{:.0} ms", prepared.voxelize_ms);
+        let caches = format!("{}, {}, {:.0} ms", grouped(cached), bytes(cache_bytes), prepared.voxelize_ms);
+        let tip = "Voxels of all caches (objects of one mesh and stretch share theirs), their memory, \
+                   and the time on the CPU of the last voxelization: once per grid, span and mode.";
+        fact(ui, "Caches", &caches, tip);
         warnings_ui(ui, &prepared.warnings);
-        fact(ui, "Voxelized", &time, "Time on the CPU for the last voxelization; once per grid, span and mode.");
     });
 }
 
