@@ -21,8 +21,8 @@ step cargo clippy --all-targets --no-default-features -- -D warnings
 step documentation
 step cargo test
 step cargo build --release
-step tests/window/drive.sh target/release/octolume
 pictures=$(mktemp -d)
 trap 'rm -rf "$pictures"' EXIT
+step tests/window/drive.sh target/release/octolume courtyard "$pictures"
 step target/release/octolume render courtyard -o "$pictures/courtyard.png" --size 640x360
 echo "All checks passed." >&2

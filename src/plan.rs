@@ -110,7 +110,7 @@ impl Pass {
             Self::EmitNodes => &["build/emit"],
             Self::SortVoxels => &["fill/count", "build/scan_sum", "build/scan_spread", "fill/place"],
             Self::GatherNearest | Self::GatherSplit => &["fill/gather", "fill/gather_heavy"],
-            Self::AverageNodes => &["average/average"],
+            Self::AverageNodes => &["averaging/average"],
             Self::NumberObjects => &["fill/number_objects"],
             Self::BuildOther => &[
                 "build/mark",
@@ -122,7 +122,7 @@ impl Pass {
                 "fill/place",
                 "fill/gather",
                 "fill/gather_heavy",
-                "average/average",
+                "averaging/average",
             ],
             Self::CompareExact => &["compare/compare_sets"],
             Self::MarchVoxels => &["view/march"],

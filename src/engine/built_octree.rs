@@ -4,7 +4,7 @@ use crate::data::octree::{MAX_FRAGMENTS, OctreeBuffers, OctreeParams, Slot};
 use crate::data::pages::WORLD_VOXEL_BYTES;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, KernelTiming, Recorder};
 use crate::settings::Filter;
-use crate::stages::average::average;
+use crate::stages::averaging::average;
 use crate::stages::build::emit::Emitted;
 use crate::stages::build::reduce::Masks;
 use crate::stages::build::scan::{self, Scanned};

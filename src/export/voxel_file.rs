@@ -13,8 +13,8 @@ use super::{ExportError, write_file};
 use crate::data::grid::Grid;
 use crate::engine::WorldVoxels;
 
-/// Writes `cells` int32 [n, 3], `occupancy` float32 [n], `albedo` (linear) and `normal` float32
-/// [n, 3], `grid_corner` float64 [3], `span` float64.
+/// Writes `cells` int32 `[n, 3]`, `occupancy` float32 `[n]`, `albedo` (linear) and `normal` float32
+/// `[n, 3]`, `grid_corner` float64 `[3]`, `span` float64.
 pub fn write_npz(file: &Path, voxels: &WorldVoxels, grid: &Grid) -> Result<(), ExportError> {
     let bytes = npz(voxels, grid).map_err(|error| ExportError::new(file, error))?;
     write_file(file, &bytes)
@@ -52,15 +52,14 @@ pub fn write_ply(file: &Path, voxels: &WorldVoxels, grid: &Grid) -> Result<(), E
 
 fn points(voxels: &WorldVoxels, grid: &Grid) -> Vec<Point> {
     let WorldVoxels { cells, occupancy, albedo, normal } = voxels;
-    let rest = occupancy.iter().zip(albedo).zip(normal);
-    let point = |(&cell, ((&occupancy, &albedo), &normal)): (&[i32; 3], ((&f32, &[f32; 3]), &[f32; 3]))| Point {
-        position: grid.corner() + (IVec3::from_array(cell).as_dvec3() + 0.5) * grid.span,
-        normal,
-        color: albedo.map(srgb_byte),
-        occupancy,
-        cell,
+    let point = |index: usize| Point {
+        position: grid.corner() + (IVec3::from_array(cells[index]).as_dvec3() + 0.5) * grid.span,
+        normal: normal[index],
+        color: albedo[index].map(srgb_byte),
+        occupancy: occupancy[index],
+        cell: cells[index],
     };
-    cells.iter().zip(rest).map(point).collect()
+    (0..cells.len()).map(point).collect()
 }
 
 struct Point {

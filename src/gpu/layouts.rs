@@ -62,7 +62,7 @@ pub const MIRRORS: &[Mirror] = &[
     ),
     mirror!(LevelParams, "build/reduce.wgsl", "ReduceParams", level),
     mirror!(LevelParams, "build/emit.wgsl", "EmitParams", level),
-    mirror!(LevelParams, "average/average.wgsl", "AverageParams", level),
+    mirror!(LevelParams, "averaging/average.wgsl", "AverageParams", level),
     mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
     mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
     mirror!(

@@ -9,9 +9,9 @@ use super::{MotionError, Prepared, PreparedObject};
 use crate::data::grid::morton_key;
 use crate::data::packing::{unpack_normal, unpack_rgba8};
 use crate::progress::{Cancelled, Progress};
-use crate::scene::Pose;
+use crate::scene::{AlphaMode, Pose};
 use crate::settings::MotionSettings;
-use crate::stages::voxelize::{self, VoxelizeInput, VoxelizePart};
+use crate::stages::voxelize::{self, VoxelizeError, VoxelizeInput, VoxelizePart};
 
 /// Cells that the posed triangles cover.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,24 +45,25 @@ impl Prepared {
     pub fn exact(&self, motion: &MotionSettings, progress: &Progress) -> Result<ExactVoxels, ExactError> {
         let pose = self.pose(motion)?;
         progress.add_total(self.objects.len() as u64);
-        let corner = self.grid.offset_cells;
-        let clip = [corner, corner + IVec3::splat(self.grid.cells() as i32)];
         let per_object = self
             .objects
             .par_iter()
             .map(|object| {
-                let cells = self.posed_cells(object, &pose).map(|(positions, triangles)| {
-                    voxelize::voxelize_cells(&positions, &triangles, self.mode, Some(clip))
-                });
+                let cells = self.posed_cells(object, &pose, progress);
                 progress.advance(1)?;
-                Ok((object, cells))
+                match cells {
+                    Some(Err(VoxelizeError::Cancelled(cancelled))) => Err(cancelled),
+                    cells => Ok((object, cells)),
+                }
             })
             .collect::<Result<Vec<_>, Cancelled>>()?;
         let words = (1_usize << (3 * self.grid.depth)).div_ceil(32);
         let mut exact = ExactVoxels { bits: vec![0; words], count: 0, warnings: Vec::new() };
         for (object, cells) in per_object {
             match cells {
-                Some(Ok(cells)) => cells.iter().for_each(|cell| exact.insert(*cell - corner)),
+                Some(Ok(cells)) => {
+                    cells.iter().filter_map(|cell| self.key_inside(*cell)).for_each(|key| exact.insert(key))
+                }
                 Some(Err(cause)) => exact.warnings.push(format!("object \"{}\": {cause}", object.object.name)),
                 None => exact.warnings.push(format!("object \"{}\" is not at a finite place", object.object.name)),
             }
@@ -77,7 +78,10 @@ impl Prepared {
             .objects
             .par_iter()
             .filter_map(|object| Some((object, self.posed_input(object, &pose)?)))
-            .map(|(_, input)| voxelize::voxelize(&input, progress))
+            .map(|(_, input)| {
+                progress.add_total(input.work_units());
+                voxelize::voxelize(&input, progress)
+            })
             .collect::<Vec<_>>();
         let mut sums: BTreeMap<u32, (f64, [f64; 3], DVec3)> = BTreeMap::new();
         for cache in caches.into_iter().flatten() {
@@ -106,9 +110,32 @@ impl Prepared {
         inside.then(|| morton_key(cell.to_array().map(|c| c as u32)))
     }
 
-    /// Positions of all primitives in cells from the anchor and their triangles, renumbered; `None` for an
-    /// object that is not at a finite place.
-    fn posed_cells(&self, object: &PreparedObject, pose: &Pose) -> Option<(Vec<DVec3>, Vec<[u32; 3]>)> {
+    /// Cells that an object covers, counted from the anchor; `None` for one that is not at a finite
+    /// place. What alpha cuts out covers nothing, so such objects are shaded as their caches were.
+    fn posed_cells(
+        &self,
+        object: &PreparedObject,
+        pose: &Pose,
+        progress: &Progress,
+    ) -> Option<Result<Vec<IVec3>, VoxelizeError>> {
+        if self.has_cut_outs(object) {
+            let input = self.posed_input(object, pose)?;
+            progress.add_total(input.work_units());
+            return Some(voxelize::voxelize(&input, progress).map(|cache| cache.cells().collect()));
+        }
+        let (positions, triangles) = self.posed_triangles(object, pose)?;
+        let corner = self.grid.offset_cells;
+        let clip = [corner, corner + IVec3::splat(self.grid.cells() as i32)];
+        Some(voxelize::voxelize_cells(&positions, &triangles, self.mode, Some(clip)))
+    }
+
+    fn has_cut_outs(&self, object: &PreparedObject) -> bool {
+        let materials = self.scene.meshes[object.object.mesh].primitives.iter().filter_map(|p| p.material);
+        materials.into_iter().any(|material| self.scene.materials[material].alpha_mode != AlphaMode::Opaque)
+    }
+
+    /// Positions of all primitives in cells from the anchor and their triangles, renumbered.
+    fn posed_triangles(&self, object: &PreparedObject, pose: &Pose) -> Option<(Vec<DVec3>, Vec<[u32; 3]>)> {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         for (index, primitive) in self.scene.meshes[object.object.mesh].primitives.iter().enumerate() {
@@ -145,8 +172,7 @@ impl Prepared {
 }
 
 impl ExactVoxels {
-    fn insert(&mut self, cell: IVec3) {
-        let key = morton_key(cell.to_array().map(|c| c as u32));
+    fn insert(&mut self, key: u32) {
         let (word, bit) = (key as usize / 32, 1 << (key % 32));
         self.count += u64::from(self.bits[word] & bit == 0);
         self.bits[word] |= bit;

@@ -1,7 +1,7 @@
 //! The stages of the pipeline, a folder each, in flow order. In a stage, `X.rs` records the
 //! dispatch of `shaders/…/X.wgsl`, and `X_ref.rs` is its f64 reference, written from the paper.
 
-pub mod average;
+pub mod averaging;
 pub mod bench;
 pub mod build;
 pub mod compare;

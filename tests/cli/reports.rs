@@ -103,7 +103,7 @@ fn bench_measures_every_kernel_beside_a_copy() {
         assert!(ms("p5_ms") <= ms("median_ms") && ms("median_ms") <= ms("p95_ms"), "{kernel}");
     }
     let names: Vec<&str> = kernels.iter().filter_map(|kernel| kernel["kernel"].as_str()).collect();
-    for name in ["transform/rigid", "build/mark", "build/emit", "fill/gather", "average/average", "view/march"] {
+    for name in ["transform/rigid", "build/mark", "build/emit", "fill/gather", "averaging/average", "view/march"] {
         assert!(names.contains(&name), "{name} is not in {names:?}");
     }
     assert_eq!((&bench["runs"], &bench["scene"]), (&json!(3), &json!("box")));

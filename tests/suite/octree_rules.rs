@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use octolume::data::grid::{morton_cell, morton_key};
 use octolume::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, mask_words};
-use octolume::stages::average::average_ref::{self, Node};
+use octolume::stages::averaging::average_ref::{self, Node};
 use octolume::stages::build::{reduce_ref, scan_spread_ref};
 use octolume::stages::fill::count_ref::Block;
 use octolume::stages::fill::gather_ref::{self, Leaf};

@@ -4,7 +4,7 @@
 use octolume::data::octree::{MAX_FRAGMENTS, OctreeBuffers, OctreeParams, Slot, mask_words};
 use octolume::gpu::{Gpu, GpuBuffer, Recorder};
 use octolume::settings::Filter;
-use octolume::stages::average::average;
+use octolume::stages::averaging::average;
 use octolume::stages::build::scan::{self, Scanned};
 use octolume::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, LevelParams, emit, mark, reduce};
 use octolume::stages::fill::{Filling, count, gather, gather_heavy, number_objects, place};

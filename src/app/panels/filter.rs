@@ -8,6 +8,9 @@ use crate::app::theme;
 use crate::engine::{AccuracyReport, FilterReport};
 use crate::settings::{Filter, Settings};
 
+/// Name, what it means, and its value for one filter.
+type CostRow = (&'static str, &'static str, fn(&FilterReport) -> Option<String>);
+
 const NAME_WIDTH: f32 = 72.0;
 
 /// `report`: of the pose on screen; the filter not shown is in it where both are measured.
@@ -17,7 +20,7 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
     ui.spacing_mut().item_spacing.y = 2.0;
     commands.extend(switch_ui(ui, settings));
     ui.add_space(3.0);
-    let rows: [(&str, &str, fn(&FilterReport) -> Option<String>); 7] = [
+    let rows: [CostRow; 7] = [
         ("GPU time", "Kernel milliseconds of a full rebuild with this filter.", |cost| {
             Some(format!("{} ms", milliseconds(cost.kernel_ms)))
         }),

@@ -15,7 +15,7 @@ pub fn record(
 ) {
     let count = u64::from(octree.node_count(level));
     frame
-        .pass(&gpu.kernel("average/average.wgsl", &[]))
+        .pass(&gpu.kernel("averaging/average.wgsl", &[]))
         .uniform("octree", octree)
         .uniform("params", &LevelParams { level })
         .bind("first_child", first_child)
