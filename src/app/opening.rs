@@ -1,0 +1,102 @@
+//! How scenes come and go: what opening one keeps of the last, and what becomes of a failure.
+
+use std::path::PathBuf;
+
+use super::journal::Severity;
+use super::loader::{Ready, same_voxels};
+use super::{App, panels};
+use crate::prepare::Prepared;
+use crate::scene::camera::camera_from_scene_camera;
+use crate::settings::MotionSettings;
+
+impl App {
+    pub(super) fn open(&mut self, ctx: &egui::Context, path: PathBuf) {
+        // A span, a pose and a camera of one scene mean nothing in another.
+        if self.scene.is_some() {
+            self.settings.discretization.span = None;
+        }
+        self.loader.open(ctx, &path, self.settings.discretization);
+        self.desk.path = path.display().to_string();
+    }
+
+    pub(super) fn cancel_loading(&mut self) {
+        self.loader.cancel();
+        self.keep_open_scene();
+        self.journal.note(Severity::Info, "Cancelled.");
+    }
+
+    /// What could not be made is not asked for again.
+    fn keep_open_scene(&mut self) {
+        if let Some(ready) = &self.scene {
+            let made = ready.discretization;
+            let wanted = &mut self.settings.discretization;
+            (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);
+        }
+    }
+
+    /// Takes over what threads have finished.
+    pub(super) fn collect(&mut self, ctx: &egui::Context) {
+        match self.loader.poll() {
+            Some(Ok(ready)) => self.show_scene(ctx, ready),
+            Some(Err(cause)) => {
+                self.keep_open_scene();
+                self.journal.tell(Severity::Error, cause);
+            }
+            None => {}
+        }
+        for written in self.screenshots.poll() {
+            match written {
+                Ok(file) => self.journal.tell(Severity::Info, format!("Saved {}", file.display())),
+                Err(cause) => self.journal.tell(Severity::Error, cause),
+            }
+        }
+        let wanted = self.settings.discretization;
+        match &self.scene {
+            Some(ready) if self.loader.is_opening() || same_voxels(&ready.discretization, &wanted) => {}
+            Some(ready) => self.loader.discretize(ctx, &ready.prepared, wanted),
+            None => {}
+        }
+    }
+
+    fn show_scene(&mut self, ctx: &egui::Context, ready: Ready) {
+        let prepared = &ready.prepared;
+        if ready.is_new {
+            if self.scene.is_some() {
+                self.settings.motion = MotionSettings::default();
+                self.settings.look.camera = None;
+                self.playback.pause();
+            }
+            self.name_window(ctx, prepared);
+            let name = &prepared.scene.name;
+            let count = panels::grouped(prepared.voxel_count());
+            self.journal
+                .note(Severity::Info, format!("Opened {name}: {count} voxels in {:.0} ms.", prepared.voxelize_ms));
+            for warning in &prepared.warnings {
+                self.journal.note(Severity::Warning, warning);
+            }
+        }
+        self.stage.set_prepared(prepared);
+        let opens_with_its_camera = ready.is_new && self.settings.look.camera.is_none();
+        self.scene = Some(ready);
+        if opens_with_its_camera {
+            self.look_through(0);
+        }
+    }
+
+    pub(super) fn name_window(&mut self, ctx: &egui::Context, prepared: &Prepared) {
+        let name = &prepared.scene.name;
+        ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("Octolume — {name}")));
+        let source = prepared.scene.source.clone().unwrap_or_else(|| PathBuf::from(name));
+        self.desk.path = source.display().to_string();
+        self.desk.remember(source);
+    }
+
+    /// Takes a camera of the file, if it has this one.
+    pub(super) fn look_through(&mut self, camera: usize) {
+        let Some(prepared) = self.prepared() else { return };
+        let Ok(pose) = prepared.pose(&self.settings.motion) else { return };
+        if let Some(camera) = camera_from_scene_camera(&prepared.scene, camera, &pose) {
+            self.settings.look.camera = Some(camera);
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Controls that change the picture, shown to change pixels.
+
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+
+use crate::rig::{Window, assert_changed, difference};
+
+#[test]
+fn every_control_of_the_picture_changes_pixels_and_back() {
+    let mut window = Window::open("courtyard");
+    let first = window.view();
+    let colors: std::collections::HashSet<_> = first.pixels().collect();
+    assert!(colors.len() > 50, "the view shows {} colours", colors.len());
+    for (there, back) in [
+        ("Nearest", "Split"),
+        ("Mesh", "Voxels"),
+        ("Ghost", "Voxels"),
+        ("By length", "Per voxel"),
+        ("Shaded", "Shaded"),
+        ("Voxel edges", "Voxel edges"),
+        ("Corner", "Centre"),
+    ] {
+        if there == "Corner" {
+            window.set("Turn y", 30.0);
+        }
+        let before = window.view();
+        window.click(there);
+        assert_changed(&before, &window.view(), there);
+        window.click(back);
+        assert_eq!(difference(&before, &window.view()), 0, "{back} brings the picture back");
+    }
+    window.set("Turn y", 0.0);
+    assert_eq!(difference(&first, &window.view()), 0, "turning back brings the picture back");
+}
+
+#[test]
+fn levels_colours_and_grids_change_the_picture() {
+    let mut window = Window::open("courtyard");
+    let mut before = window.view();
+    for (level, name) in [(5.0, "level 5"), (2.0, "level 2"), (6.0, "leaves")] {
+        window.set("Level", level);
+        let after = window.view();
+        assert_changed(&before, &after, name);
+        before = after;
+    }
+    for color in ["Normal", "Occupancy", "Object", "Octree level", "Albedo"] {
+        window.choose("Colour", color);
+        let after = window.view();
+        assert_changed(&before, &after, color);
+        before = after;
+    }
+    window.choose("Grid", "128³ cells");
+    assert_changed(&before, &window.view(), "another grid");
+    assert_eq!(window.app().settings().discretization.grid, 128);
+}
+
+#[test]
+fn the_timeline_moves_the_scene_and_scrubbing_returns_to_the_same_picture() {
+    let mut window = Window::open("courtyard");
+    let start = window.view();
+    (0..6).for_each(|_| window.click("Step forward"));
+    let stepped = window.view();
+    assert_changed(&start, &stepped, "stepping");
+    window.set("Time", 0.0);
+    assert_eq!(difference(&start, &window.view()), 0, "time 0 looks the same again");
+    window.set("Time", 0.2);
+
+    assert_eq!(difference(&stepped, &window.view()), 0, "scrubbed to the time stepped to");
+    window.choose("Clip", "Rest pose");
+    assert_eq!(window.app().settings().motion.clip.as_deref(), Some(""));
+
+    window.choose("Clip", "walk (10.00 s)");
+    window.0.get_by_label("Play").click();
+    window.0.run_steps(8);
+    window.0.get_by_label("Pause").click();
+    window.settle();
+    assert!(window.app().settings().motion.time_secs > 0.0);
+    window.press(Modifiers::NONE, Key::ArrowLeft);
+    let thirtieths = window.app().settings().motion.time_secs * 30.0;
+    assert!((thirtieths - thirtieths.round()).abs() < 1e-9, "a step lands on a thirtieth");
+}
