@@ -44,6 +44,7 @@ impl Session {
     /// Builds and draws what the settings ask for.
     pub fn run(&mut self, settings: &Settings, image_size_px: [u32; 2]) -> anyhow::Result<()> {
         self.engine.request(settings, image_size_px)?;
+        output::warnings(&self.engine.left_out());
         Ok(self.engine.run_to_end()?)
     }
 

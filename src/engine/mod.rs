@@ -173,6 +173,14 @@ impl Engine {
         Ok(())
     }
 
+    /// Objects that the requested pose cannot show, a sentence each.
+    pub fn left_out(&self) -> Vec<String> {
+        let (Some(prepared), Some(wanted)) = (&self.prepared, &self.wanted) else { return Vec::new() };
+        let name = |&object: &usize| &prepared.objects[object].object.name;
+        let objects = wanted.frame.left_out.iter().map(name);
+        objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite")).collect()
+    }
+
     fn make_plan(&mut self) {
         let Some(wanted) = &self.wanted else { return };
         self.plan = plan::plan(&wanted.facts, &self.changes(wanted), &wanted.settings);
