@@ -179,6 +179,16 @@ fn sums_are_taken_before_occupancy_is_clamped_and_the_excess_is_known() {
 }
 
 #[test]
+fn a_leaf_one_unit_short_of_full_is_not_full() {
+    // In cell 0: 255·256·256, 255·256·1 and 255·1·1 units, together 2^24 − 1; then the last one.
+    let rest = [[1, 0, 0], [1, 0, 255], [1, 255, 255], [255, 255, 255]];
+    let voxels = rest.map(|q| Fragment { q, normal: [511; 3], albedo: [77; 3] });
+    let occupancy = |voxels: &[Fragment]| built_leaves(voxels, &small(Filter::Split))[&[0; 3]].occupancy;
+    assert_eq!(occupancy(&voxels[..3]), FULL_WEIGHT - 1);
+    assert_eq!(occupancy(&voxels), FULL_WEIGHT);
+}
+
+#[test]
 fn halves_round_up_and_just_below_a_half_rounds_down() {
     let mix = |dark: usize, light: usize| {
         let mut voxels = vec![at([4; 3], [100; 3], [600; 3]); dark];
