@@ -43,7 +43,7 @@ impl Textures {
             }
         }
         for texture in source.document.textures() {
-            let image = images.get(texture.source().index()).and_then(|image| image.as_ref()?.as_ref().ok());
+            let image = texture.source().and_then(|image| images.get(image.index())?.as_ref()?.as_ref().ok());
             textures.places.push(image.map(|_| textures.list.len()));
             textures.list.extend(image.map(|image| Texture {
                 name: texture_name(root, &texture),
@@ -69,9 +69,9 @@ impl Textures {
 }
 
 fn texture_name(root: &json::Root, texture: &gltf::Texture) -> String {
-    let image = texture.source().index();
-    let uri = root.images[image].uri.as_deref().filter(|uri| !uri.starts_with("data:"));
-    let name = texture.name().or(root.images[image].name.as_deref()).or(uri);
+    let image = texture.source().map(|image| &root.images[image.index()]);
+    let uri = image.and_then(|image| image.uri.as_deref()).filter(|uri| !uri.starts_with("data:"));
+    let name = texture.name().or(image.and_then(|image| image.name.as_deref())).or(uri);
     name.map_or_else(|| format!("texture {}", texture.index()), str::to_owned)
 }
 
@@ -82,7 +82,9 @@ fn decode_images(source: &Source, base_dir: Option<&Path>, progress: &Progress) 
     let root = source.document.as_json();
     let mut used = vec![false; root.images.len()];
     for texture in &root.textures {
-        used[texture.source.value()] = true;
+        if let Some(used) = used.get_mut(texture.source.value()) {
+            *used = true;
+        }
     }
     progress.add_total(used.iter().filter(|&&used| used).count() as u64);
     let decoded: Vec<Result<Decoded, Defect>> = (root.images.par_iter().zip(used))
