@@ -70,13 +70,12 @@ fn moving() -> Document {
 fn skinned() -> Document {
     let sets = [([0, 1, 2, 0], [0.25, 0.25, 0.25, 0.0]), ([3, 0, 0, 0], [0.25, 0.0, 0.0, 0.0])];
     let mut document = Document::with_skin(4, &sets).with_clip();
-    document.json["nodes"][1]["children"] = json!([2, 3, 4]);
     document.json["animations"][0]["channels"][0]["target"]["node"] = json!(2);
     let mut matrix = [0.0; 16];
     (0..4).for_each(|lane| matrix[5 * lane] = 1.0);
     let inverse_bind = document.floats("MAT4", &matrix.repeat(4));
     document.json["skins"][0]["inverseBindMatrices"] = json!(inverse_bind);
-    document.json["skins"][0]["skeleton"] = json!(1);
+    document.json["skins"][0]["skeleton"] = json!(5);
     document
 }
 
