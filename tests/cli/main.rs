@@ -1,6 +1,7 @@
 //! The program as a script sees it: exit codes, standard output, files.
 
 mod corpus;
+mod defects;
 mod files;
 mod pictures;
 mod reports;
