@@ -16,6 +16,7 @@ mod camera;
 mod device;
 mod document;
 mod dummies;
+mod extensions;
 mod gpu;
 mod gpu_errors;
 mod hard_cases;
