@@ -1,0 +1,157 @@
+//! An entry as a file.
+//!
+//! ```text
+//! head         magic 8 | format version 4 | description bytes 4 | key 32 | hash 32
+//! description  postcard: tiles, report, numbers of voxels, emissions and joints
+//! voxels       16 bytes each     ┐
+//! emission     12 bytes each     ├ as in memory
+//! joints       12 bytes each     ┘
+//! ```
+//!
+//! The hash is of everything in the file but itself. It finds accidents, not intent: anybody can
+//! write an entry with a right hash, so what it says is also checked against what it may say.
+//! Reading allocates no more than twice the file's size.
+
+use std::io::{self, Write};
+
+use bytemuck::{AnyBitPattern, Pod, Zeroable};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::key::ContentKey;
+use crate::data::voxel_cache::{CacheVoxel, Tile, VoxelCache, VoxelJoints, VoxelizeReport};
+use crate::stages::voxelize::VoxelizeInput;
+
+const MAGIC: [u8; 8] = *b"OCTVOXEL";
+/// Goes up with every change of the layout above.
+const FORMAT_VERSION: u32 = 1;
+
+/// Bytes alone, so that it needs no alignment. Numbers are little-endian.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Head {
+    magic: [u8; 8],
+    format_version: [u8; 4],
+    description_bytes: [u8; 4],
+    key: [u8; 32],
+    hash: [u8; 32],
+}
+
+#[derive(Serialize, Deserialize)]
+struct Description {
+    tiles: Vec<Tile>,
+    report: VoxelizeReport,
+    voxels: u64,
+    emissions: u64,
+    joints: u64,
+}
+
+impl Head {
+    fn new(key: &ContentKey, description_bytes: u32) -> Self {
+        Self {
+            magic: MAGIC,
+            format_version: FORMAT_VERSION.to_le_bytes(),
+            description_bytes: description_bytes.to_le_bytes(),
+            key: *key.bytes(),
+            hash: [0; 32],
+        }
+    }
+
+    /// The hash of an entry with this head and these pieces behind it.
+    fn hash_with(&self, pieces: &[&[u8]]) -> [u8; 32] {
+        let Self { magic, format_version, description_bytes, key, hash: _ } = self;
+        let mut hasher = blake3::Hasher::new();
+        for piece in [magic.as_slice(), format_version, description_bytes, key].iter().chain(pieces) {
+            hasher.update(piece);
+        }
+        *hasher.finalize().as_bytes()
+    }
+}
+
+/// A cache ready to be written; its voxels are not copied.
+pub(super) struct Encoded<'a> {
+    head: Head,
+    description: Vec<u8>,
+    cache: &'a VoxelCache,
+}
+
+impl<'a> Encoded<'a> {
+    pub fn new(key: &ContentKey, cache: &'a VoxelCache) -> io::Result<Self> {
+        let VoxelCache { tiles, voxels, emission, joints, report } = cache;
+        let description = Description {
+            tiles: tiles.clone(),
+            report: *report,
+            voxels: voxels.len() as u64,
+            emissions: emission.len() as u64,
+            joints: joints.len() as u64,
+        };
+        let description = postcard::to_stdvec(&description).map_err(io::Error::other)?;
+        let description_bytes = u32::try_from(description.len()).map_err(io::Error::other)?;
+        let mut encoded = Self { head: Head::new(key, description_bytes), description, cache };
+        encoded.head.hash = encoded.head.hash_with(&encoded.pieces());
+        Ok(encoded)
+    }
+
+    pub fn len(&self) -> u64 {
+        let pieces: usize = self.pieces().iter().map(|piece| piece.len()).sum();
+        (size_of::<Head>() + pieces) as u64
+    }
+
+    pub fn write(&self, file: &mut impl Write) -> io::Result<()> {
+        file.write_all(bytemuck::bytes_of(&self.head))?;
+        self.pieces().iter().try_for_each(|piece| file.write_all(piece))
+    }
+
+    fn pieces(&self) -> [&[u8]; 4] {
+        let VoxelCache { tiles: _, voxels, emission, joints, report: _ } = self.cache;
+        [&self.description, bytemuck::cast_slice(voxels), bytemuck::cast_slice(emission), bytemuck::cast_slice(joints)]
+    }
+}
+
+/// The cache in a file's bytes; `None` where anything about them is wrong.
+pub(super) fn decode(bytes: &[u8], key: &ContentKey) -> Option<VoxelCache> {
+    let (head, rest) = bytes.split_at_checked(size_of::<Head>())?;
+    let head: Head = bytemuck::pod_read_unaligned(head);
+    let description_bytes = u32::from_le_bytes(head.description_bytes);
+    let expected = Head::new(key, description_bytes);
+    if head.hash != expected.hash_with(&[rest]) || (head.magic, head.key) != (expected.magic, expected.key) {
+        return None;
+    }
+    let (description, mut rest) = rest.split_at_checked(description_bytes as usize)?;
+    let (description, []) = postcard::take_from_bytes::<Description>(description).ok()? else { return None };
+    let cache = VoxelCache {
+        tiles: description.tiles,
+        voxels: take::<CacheVoxel>(&mut rest, description.voxels)?,
+        emission: take::<[f32; 3]>(&mut rest, description.emissions)?,
+        joints: take::<VoxelJoints>(&mut rest, description.joints)?,
+        report: description.report,
+    };
+    (rest.is_empty() && cache.validate().is_ok()).then_some(cache)
+}
+
+/// The first `count` values of `bytes`, taken off; allocates nothing where there are fewer.
+fn take<T: AnyBitPattern + bytemuck::NoUninit>(bytes: &mut &[u8], count: u64) -> Option<Vec<T>> {
+    let needed = usize::try_from(count).ok()?.checked_mul(size_of::<T>())?;
+    let (taken, rest) = bytes.split_at_checked(needed)?;
+    *bytes = rest;
+    Some(bytemuck::pod_collect_to_vec(taken))
+}
+
+/// Can these be the voxels of `input`? Later stages rely on it: joints exist, cells are near.
+pub(super) fn fits(cache: &VoxelCache, input: &VoxelizeInput) -> bool {
+    let has_voxels = !cache.voxels.is_empty();
+    let primitives = || input.parts.iter().map(|part| part.primitive);
+    let known = primitives().flat_map(|primitive| &primitive.joints).flatten().max().copied().unwrap_or(0);
+    let used = cache.joints.iter().flat_map(|voxel| voxel.joints).max().unwrap_or(0);
+    let positions = input.parts.iter().flat_map(|part| &part.positions_cells);
+    let [min, max] = positions.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[min, max], &p| [min.min(p), max.max(p)]);
+    let is_near = |tile: &Tile| {
+        let origin = tile.origin.as_dvec3();
+        origin.cmpge(min.floor() - 1.0).all() && origin.cmple(max + 1.0).all()
+    };
+    cache.report.triangles == input.triangle_count()
+        && cache.joints.is_empty() != (input.with_joints && has_voxels)
+        && cache.emission.is_empty() != (input.emits() && has_voxels)
+        && used <= known
+        && cache.tiles.iter().all(is_near)
+}
