@@ -113,8 +113,9 @@ pub(super) fn decode(bytes: &[u8], key: &ContentKey) -> Option<VoxelCache> {
     let (head, rest) = bytes.split_at_checked(size_of::<Head>())?;
     let head: Head = bytemuck::pod_read_unaligned(head);
     let description_bytes = u32::from_le_bytes(head.description_bytes);
-    let expected = Head::new(key, description_bytes);
-    if head.hash != expected.hash_with(&[rest]) || (head.magic, head.key) != (expected.magic, expected.key) {
+    let mut expected = Head::new(key, description_bytes);
+    expected.hash = expected.hash_with(&[rest]);
+    if bytemuck::bytes_of(&head) != bytemuck::bytes_of(&expected) {
         return None;
     }
     let (description, mut rest) = rest.split_at_checked(description_bytes as usize)?;
@@ -154,4 +155,125 @@ pub(super) fn fits(cache: &VoxelCache, input: &VoxelizeInput) -> bool {
         && cache.emission.is_empty() != (input.emits() && has_voxels)
         && used <= known
         && cache.tiles.iter().all(is_near)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::IVec3;
+
+    use super::*;
+    use crate::disk_cache::TextureHashes;
+    use crate::scene::Primitive;
+    use crate::stages::voxelize::{TexturePyramids, VoxelizePart};
+
+    fn key() -> ContentKey {
+        let textures = TexturePyramids::new(&[]);
+        let input = VoxelizeInput {
+            parts: Vec::new(),
+            materials: &[],
+            textures: &textures,
+            mode: Default::default(),
+            with_joints: false,
+        };
+        ContentKey::of(&input, &TextureHashes::new(&[]))
+    }
+
+    fn cache() -> VoxelCache {
+        let voxel = |position| CacheVoxel { position, normal: 0, albedo: 7, surface: 9 };
+        VoxelCache {
+            tiles: vec![Tile { origin: IVec3::new(-3, 4, 500), voxels: 0..3 }],
+            voxels: vec![voxel(0), voxel(1), voxel(1 << 10)],
+            emission: vec![[0.25, 0.5, 3.0]; 3],
+            joints: vec![VoxelJoints { joints: [2, 0, 1, 0], weights: [200, 50, 5, 0] }; 3],
+            report: VoxelizeReport { triangles: 2, ..VoxelizeReport::default() },
+        }
+    }
+
+    fn bytes(encoded: &Encoded) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        encoded.write(&mut bytes).expect("memory takes everything");
+        bytes
+    }
+
+    /// Somebody who computes hashes rightly, and whose numbers are wrong.
+    fn forged(forge: impl FnOnce(&mut Description)) -> Vec<u8> {
+        let cache = cache();
+        let mut encoded = Encoded::new(&key(), &cache).expect("encodes");
+        let mut description: Description = postcard::from_bytes(&encoded.description).expect("decodes");
+        forge(&mut description);
+        encoded.description = postcard::to_stdvec(&description).expect("encodes");
+        encoded.head = Head::new(&key(), encoded.description.len() as u32);
+        encoded.head.hash = encoded.head.hash_with(&encoded.pieces());
+        bytes(&encoded)
+    }
+
+    #[test]
+    fn what_is_written_is_read_and_nothing_else() {
+        let cache = cache();
+        let encoded = Encoded::new(&key(), &cache).expect("encodes");
+        let good = bytes(&encoded);
+        assert_eq!(good.len() as u64, encoded.len());
+        assert_eq!(decode(&good, &key()), Some(cache));
+        for cut in 0..good.len() {
+            assert_eq!(decode(&good[..cut], &key()), None, "{cut} bytes");
+        }
+        for bit in 0..8 * good.len() {
+            let mut flipped = good.clone();
+            flipped[bit / 8] ^= 1 << (bit % 8);
+            assert_eq!(decode(&flipped, &key()), None, "bit {bit}");
+        }
+        assert_eq!(decode(&[good.as_slice(), &[0]].concat(), &key()), None);
+    }
+
+    #[test]
+    fn forged_numbers_are_refused_before_anything_is_allocated() {
+        assert_eq!(decode(&forged(|_| {}), &key()), Some(cache()));
+        let forgeries: [fn(&mut Description); 7] = [
+            |description| description.voxels = u64::MAX,
+            |description| description.voxels = 1 << 60,
+            |description| (description.voxels, description.emissions) = (2, 3),
+            |description| description.joints = u64::MAX / 12 + 2,
+            |description| description.tiles[0].voxels = 0..u32::MAX,
+            |description| description.tiles.clear(),
+            |description| description.tiles[0].origin = IVec3::MIN,
+        ];
+        for (number, forge) in forgeries.into_iter().enumerate() {
+            assert_eq!(decode(&forged(forge), &key()), None, "{number}");
+        }
+        // A description that names four thousand million tiles and holds none.
+        let description = postcard::to_stdvec(&u32::MAX).expect("encodes");
+        let mut head = Head::new(&key(), description.len() as u32);
+        head.hash = head.hash_with(&[&description]);
+        assert_eq!(decode(&[bytemuck::bytes_of(&head), &description].concat(), &key()), None);
+    }
+
+    #[test]
+    fn voxels_that_cannot_be_the_inputs_are_refused() {
+        let primitive =
+            Primitive { joints: vec![[0, 2, 1, 0]; 3], triangles: vec![[0, 1, 2]; 2], ..Primitive::default() };
+        let positions = [DVec3::new(-2.5, 4.5, 500.5), DVec3::new(-1.0, 6.0, 501.0), DVec3::new(-1.5, 4.0, 500.0)];
+        let glows = crate::scene::Material { emissive: [1.0; 3], ..Default::default() };
+        let textures = TexturePyramids::new(&[]);
+        let part = |primitive, shift: f64| VoxelizePart {
+            primitive,
+            positions_cells: positions.map(|position| position + shift).to_vec(),
+            normals: vec![DVec3::Z; 3],
+        };
+        let input = |part, with_joints| VoxelizeInput {
+            parts: vec![part],
+            materials: std::slice::from_ref(&glows),
+            textures: &textures,
+            mode: Default::default(),
+            with_joints,
+        };
+        let lit = Primitive { material: Some(0), ..primitive.clone() };
+        assert!(fits(&cache(), &input(part(&lit, 0.0), true)));
+        assert!(!fits(&cache(), &input(part(&lit, 0.0), false)), "not skinned");
+        assert!(!fits(&cache(), &input(part(&lit, 9.0), true)), "elsewhere");
+        assert!(!fits(&cache(), &input(part(&primitive, 0.0), true)), "nothing emits");
+        let fewer_joints = Primitive { joints: vec![[0, 1, 1, 0]; 3], ..lit.clone() };
+        assert!(!fits(&cache(), &input(part(&fewer_joints, 0.0), true)), "no such joint");
+        let longer = Primitive { triangles: vec![[0, 1, 2]; 3], ..lit.clone() };
+        assert!(!fits(&cache(), &input(part(&longer, 0.0), true)), "other triangles");
+    }
 }

@@ -1,6 +1,7 @@
 //! Finds or makes the voxel caches of a scene: from the preparation before, from the disk, or by
 //! voxelizing (section 3.1). In parallel, cancellable; an object is looked for only once.
 
+use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
@@ -176,6 +177,19 @@ impl<'a> Work<'a> {
             mode: self.mode,
             with_joints: matches!(object.object.motion, Motion::Skinned { .. }),
         }
+    }
+}
+
+/// "voxelized 0 objects, 398 read from the disk cache".
+impl fmt::Display for CacheOrigins {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { voxelized, kept, read, replaced } = *self;
+        write!(f, "voxelized {voxelized} object{}", if voxelized == 1 { "" } else { "s" })?;
+        if replaced > 0 {
+            write!(f, " ({replaced} in place of damaged entries)")?;
+        }
+        write!(f, ", {read} read from the disk cache")?;
+        if kept > 0 { write!(f, ", {kept} kept") } else { Ok(()) }
     }
 }
 
