@@ -12,6 +12,7 @@
 //! folder without locks, and a damaged entry is the same as none.
 
 mod entry;
+mod fit;
 mod folder;
 mod key;
 
@@ -68,12 +69,14 @@ impl DiskCache {
     /// The voxels of `input`, if an entry of that key holds some that can be its.
     pub fn load(&self, key: &ContentKey, input: &VoxelizeInput) -> Lookup {
         let path = self.path(key);
-        let bytes = match fs::read(&path) {
-            Ok(bytes) => bytes,
+        let bytes = match fs::metadata(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Lookup::Missing,
-            Err(_) => return Lookup::Damaged,
+            // What is no file might never end, and what is larger than the cap was never stored.
+            Ok(metadata) if metadata.is_file() && metadata.len() <= self.cap_bytes() => fs::read(&path).ok(),
+            _ => None,
         };
-        let Some(cache) = entry::decode(&bytes, key).filter(|cache| entry::fits(cache, input)) else {
+        let Some(bytes) = bytes else { return Lookup::Damaged };
+        let Some(cache) = entry::decode(&bytes, key).filter(|cache| fit::fits(cache, input)) else {
             return Lookup::Damaged;
         };
         // The age only decides what goes first, and a folder may be readable but not writable.

@@ -14,6 +14,8 @@ mod averaging;
 mod builtin;
 mod camera;
 mod device;
+mod disk_cache;
+mod disk_cache_key;
 mod document;
 mod dummies;
 mod gpu;
