@@ -1,5 +1,6 @@
 //! The program as a script sees it: exit codes, standard output, files.
 
+mod corpus;
 mod files;
 mod pictures;
 mod reports;

@@ -21,6 +21,7 @@ mod dummies;
 mod gpu;
 mod gpu_errors;
 mod hard_cases;
+mod illegal_files;
 mod loading;
 mod mesh_rig;
 mod mesh_view;

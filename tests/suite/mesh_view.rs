@@ -81,7 +81,7 @@ fn textures_factors_and_vertex_colours_multiply() {
     let texture = Texture { name: "halves".to_owned(), image: Arc::new(image), wrap: [Wrap::Repeat; 2], nearest: true };
     let material = Material {
         base_color: [0.5, 1.0, 1.0, 1.0],
-        base_color_texture: Some(TextureRef { texture: 0, tex_coord: 0 }),
+        base_color_texture: Some(TextureRef::new(0, 0)),
         ..Material::default()
     };
     let mut scene = Scene { textures: vec![texture], ..one_square(material) };

@@ -118,7 +118,7 @@ fn materials_and_their_images_are_read() {
     document.json["meshes"][0]["primitives"][0]["material"] = json!(0);
     let scene = document.open().expect("opens");
     let material = &scene.materials[0];
-    assert_eq!(material.base_color_texture, Some(scene::TextureRef { texture: 0, tex_coord: 1 }));
+    assert_eq!(material.base_color_texture, Some(scene::TextureRef::new(0, 1)));
     assert_eq!((material.metallic, material.roughness, material.emissive), (1.0, 0.25, [4.0, 8.0, 0.0]));
     assert_eq!(material.alpha_mode, scene::AlphaMode::Mask { cutoff: 0.75 });
     assert_eq!(scene.textures[0].image.get_pixel(1, 1).0, [10, 20, 30, 40]);
@@ -142,7 +142,7 @@ fn a_broken_image_costs_its_textures_only() {
     );
     let scene = document.open().expect("opens");
     assert_eq!(scene.textures.len(), 1);
-    assert_eq!(scene.materials[0].base_color_texture, Some(scene::TextureRef { texture: 0, tex_coord: 0 }));
+    assert_eq!(scene.materials[0].base_color_texture, Some(scene::TextureRef::new(0, 0)));
     assert_eq!(scene.materials[0].emissive, [0.0; 3], "an emission whose mask is lost lights nothing");
     assert!(scene.warnings[0].starts_with("image 0 cannot be decoded"), "{:?}", scene.warnings);
 }

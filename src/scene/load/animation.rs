@@ -1,5 +1,7 @@
 //! Clips: channels with strictly increasing key times and as many values as those call for.
 
+use std::collections::{BTreeSet, HashSet};
+
 use gltf::json::{
     self,
     animation::{Interpolation as FileInterpolation, Property as FileProperty},
@@ -7,7 +9,7 @@ use gltf::json::{
 };
 
 use super::{
-    error::{About, Defect, counted, label},
+    error::{About, Defect, label},
     nodes::unit_quaternion,
     source::Source,
 };
@@ -24,35 +26,44 @@ pub(super) fn load(
 ) -> Result<Clip, Defect> {
     let name = label("animation", index, animation.name.as_deref());
     let mut channels: Vec<Channel> = Vec::new();
-    let mut morphs = 0;
-    for (number, channel) in animation.channels.iter().enumerate() {
-        let object = || format!("{name}, channel {number}");
-        let property = match channel.target.path {
+    let mut taken = HashSet::new();
+    let mut morphed = BTreeSet::new();
+    for channel in &animation.channels {
+        let target = &channel.target;
+        let Some(&node) = rank.get(target.node.value()) else {
+            return Err(Defect::new(name, "animates a node that does not exist"));
+        };
+        let object =
+            |what: &str| format!("{name}, {what} of {}", label("node", target.node.value(), Some(&nodes[node].name)));
+        let property = match target.path {
             Checked::Valid(FileProperty::Translation) => Property::Translation,
             Checked::Valid(FileProperty::Rotation) => Property::Rotation,
             Checked::Valid(FileProperty::Scale) => Property::Scale,
             Checked::Valid(FileProperty::MorphTargetWeights) => {
-                morphs += 1;
+                morphed.insert(node);
                 continue;
             }
-            Checked::Invalid => return Err(Defect::new(object(), "animates an unknown property")),
+            Checked::Invalid => {
+                warnings.push(format!("{}, which glTF does not know; it is left out", object("a property")));
+                continue;
+            }
         };
-        let node = rank.get(channel.target.node.value()).copied();
-        let node = node.ok_or_else(|| Defect::new(object(), "animates a node that does not exist"))?;
+        let object = || object(property.name());
         if let LocalTransform::Matrix(_) = nodes[node].local {
             warnings.push(format!("{}: its node has a matrix, which cannot be animated; it is left out", object()));
             continue;
         }
-        if channels.iter().any(|other| other.node == node && other.property == property) {
+        if !taken.insert((node, property)) {
             return Err(Defect::new(object(), "animates what another channel of the clip animates"));
         }
         let sampler = animation.samplers.get(channel.sampler.value());
         let sampler = sampler.ok_or_else(|| Defect::new(object(), "names a sampler that does not exist"))?;
         channels.push(read_channel(source, sampler, node, property).about(object)?);
     }
-    if morphs > 0 {
-        let left_out = counted(morphs, "channel", "channels");
-        warnings.push(format!("{name}: {left_out} left out: morph targets are not animated"));
+    for node in morphed {
+        let node = &nodes[node].name;
+        warnings
+            .push(format!("{name}: the morph weights of \"{node}\" move, which is not shown; its resting shape moves"));
     }
     Ok(Clip {
         name: animation.name.clone().unwrap_or_else(|| format!("animation {index}")),

@@ -5,8 +5,8 @@ use crate::progress::Cancelled;
 /// Why a file could not be opened; its text names file, object and cause.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    #[error("{file}: cannot be read: {source}")]
-    Unreadable { file: String, source: std::io::Error },
+    #[error("{file}: {cause}")]
+    Unreadable { file: String, cause: String },
     #[error("{file}: {object}: {cause}")]
     Invalid { file: String, object: String, cause: String },
     #[error("{file}: opening was cancelled")]
@@ -15,7 +15,8 @@ pub enum LoadError {
 
 /// A [`LoadError`] before the file's name is known.
 #[derive(Debug)]
-pub(super) enum Defect {
+pub(in crate::scene::load) enum Defect {
+    Unreadable { cause: String },
     Invalid { object: String, cause: String },
     Cancelled,
 }
@@ -28,6 +29,7 @@ impl Defect {
     pub fn in_file(self, file: &str) -> LoadError {
         let file = file.to_owned();
         match self {
+            Self::Unreadable { cause } => LoadError::Unreadable { file, cause },
             Self::Invalid { object, cause } => LoadError::Invalid { file, object, cause },
             Self::Cancelled => LoadError::Cancelled { file },
         }
@@ -52,7 +54,7 @@ impl<T> About<T> for Result<T, String> {
 }
 
 /// How messages name an object: `mesh 3 "wheel"`.
-pub(super) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
+pub(in crate::scene::load) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
     match name {
         Some(name) if !name.is_empty() => format!("{kind} {index} \"{name}\""),
         _ => format!("{kind} {index}"),
@@ -60,6 +62,6 @@ pub(super) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
 }
 
 /// `1 vertex`, `3 vertices`.
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+pub(in crate::scene::load) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }

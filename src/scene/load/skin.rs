@@ -11,7 +11,7 @@ use super::{
 use crate::scene::{Mesh, Node, Skin};
 
 pub(super) fn load_all(source: &Source, rank: &[usize], warnings: &mut Vec<String>) -> Result<Vec<Skin>, Defect> {
-    let skins = source.document.as_json().skins.iter().enumerate();
+    let skins = source.root.skins.iter().enumerate();
     skins.map(|(index, skin)| load(source, index, skin, rank, warnings)).collect()
 }
 

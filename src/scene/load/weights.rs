@@ -1,10 +1,10 @@
 //! Joints and weights of a primitive: any number of sets merged into the four strongest that sum to 1.
 
-use gltf::json::{mesh::Semantic, validation::Checked};
+use gltf::json::mesh::Semantic;
 
 use super::{
+    attributes::Attributes,
     error::{About, Defect, counted},
-    mesh::Attributes,
 };
 
 /// Influences kept a vertex.
@@ -52,14 +52,6 @@ impl Influences {
         }
         repairs.report(&attributes.primitive, warnings);
         Ok(Some(influences))
-    }
-}
-
-impl Attributes<'_> {
-    /// Sets 0, 1, … that have joints or weights; a lone one of the two is reported on reading.
-    fn joint_sets(&self) -> u32 {
-        let has = |semantic| self.accessors.contains_key(&Checked::Valid(semantic));
-        (0..).take_while(|&set| has(Semantic::Joints(set)) || has(Semantic::Weights(set))).count() as u32
     }
 }
 

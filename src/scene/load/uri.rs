@@ -1,0 +1,57 @@
+//! What a URI of the document stands for: a `data:` URI or a file beside it. All that touches the
+//! file system while a document is read is here.
+
+use std::path::{Path, PathBuf};
+
+use super::budget::Budget;
+
+/// Where a URI leads.
+pub(super) enum Target {
+    Data(Vec<u8>),
+    File(PathBuf),
+}
+
+impl Target {
+    /// `base_dir` is where relative URIs start.
+    pub fn of(uri: &str, base_dir: Option<&Path>) -> Result<Self, String> {
+        if let Some(data) = uri.strip_prefix("data:") {
+            return decode_data(data).map(Self::Data);
+        }
+        let scheme_end = uri.find(':').unwrap_or(usize::MAX);
+        if scheme_end < uri.find('/').unwrap_or(uri.len()) {
+            return Err(format!("has the URI {uri:?}, and only files beside the document and data URIs can be read"));
+        }
+        let relative = urlencoding::decode(uri).map_err(|_| format!("has the URI {uri:?}, which is not UTF-8"))?;
+        match base_dir {
+            Some(base_dir) => Ok(Self::File(base_dir.join(relative.as_ref()))),
+            None => Err(format!("is in the file {relative:?}, but the document was opened from memory")),
+        }
+    }
+
+    /// The bytes; a file must fit in what is left of `budget` before it is read.
+    pub fn read(self, budget: &Budget) -> Result<Vec<u8>, String> {
+        let path = match self {
+            Self::Data(bytes) => return Ok(bytes),
+            Self::File(path) => path,
+        };
+        let cannot = |error: std::io::Error| format!("cannot be read: {error}");
+        let length = std::fs::metadata(&path).and_then(|metadata| match metadata.is_file() {
+            true => Ok(metadata.len()),
+            false => Err(std::io::Error::other("it is not a file")),
+        });
+        budget.spend(length.map_err(cannot)?)?;
+        std::fs::read(&path).map_err(cannot)
+    }
+}
+
+/// What follows `data:`: `[type][;base64],payload`.
+fn decode_data(data: &str) -> Result<Vec<u8>, String> {
+    let Some((head, payload)) = data.split_once(',') else {
+        return Err("has a data URI without a comma".to_owned());
+    };
+    if head.ends_with(";base64") {
+        base64::decode(payload).map_err(|error| format!("has a data URI that is not base64: {error}"))
+    } else {
+        Ok(urlencoding::decode_binary(payload.as_bytes()).into_owned())
+    }
+}
