@@ -108,6 +108,7 @@ impl Writer<'_> {
             emissive_texture: _,
             alpha_mode,
             double_sided: _,
+            unlit: _, // a voxel holds what light would meet, whether it is lit is decided later
         } = material;
         self.list(base_color);
         self.list(&[*metallic, *roughness]);
@@ -124,8 +125,9 @@ impl Writer<'_> {
 
     fn slot(&mut self, slot: Option<TextureRef>) {
         self.number(u64::from(slot.is_some()));
-        let Some(TextureRef { texture, tex_coord }) = slot else { return };
+        let Some(TextureRef { texture, tex_coord, uv_from_tex_coord }) = slot else { return };
         self.number(tex_coord as u64);
+        self.list(&uv_from_tex_coord.to_cols_array());
         let Some((texture, image)) = self.textures.get(texture) else { return };
         let Texture { name: _, image: _, wrap, nearest } = texture;
         self.hasher.update(image.as_bytes());

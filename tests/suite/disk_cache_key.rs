@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use glam::{DVec3, Vec2, Vec4};
+use glam::{Affine2, DVec3, Vec2, Vec4};
 use octolume::data::voxel_cache::VoxelizationMode::{self, Conservative, Thin};
 use octolume::disk_cache::{ContentKey, DiskCache, Lookup, TextureHashes};
 use octolume::progress::Progress;
@@ -26,7 +26,7 @@ fn rich() -> Object {
         texture(4, 4, |x, y| [0, 50 * y as u8, 60 * x as u8, 255]),
     ];
     object.material = Material {
-        metallic_roughness_texture: Some(TextureRef { texture: 0, tex_coord: 0 }),
+        metallic_roughness_texture: Some(TextureRef::new(0, 0)),
         emissive: [2.0, 0.5, 0.0],
         alpha_mode: AlphaMode::Mask { cutoff: 0.5 },
         ..Material::default()
@@ -59,9 +59,13 @@ fn image_texel(object: &mut Object, texture: usize) -> &mut u8 {
     &mut Arc::make_mut(&mut object.textures[texture].image).get_pixel_mut(3, 2).0[1]
 }
 
+fn mirrored(slot: TextureRef) -> TextureRef {
+    TextureRef { uv_from_tex_coord: Affine2::from_scale(Vec2::new(-1.0, 1.0)), ..slot }
+}
+
 #[test]
 fn every_input_changes_the_key() {
-    let changes: [fn(&mut Object); 30] = [
+    let changes: [fn(&mut Object); 31] = [
         |o| o.soup.positions[1].x += 1e-9,
         |o| o.soup.positions.push(DVec3::ZERO),
         |o| o.normals[3].y = 1e-9,
@@ -84,11 +88,12 @@ fn every_input_changes_the_key() {
         |o| o.material.alpha_mode = AlphaMode::Blend,
         |o| o.material.alpha_mode = AlphaMode::Opaque,
         |o| o.material.alpha_mode = AlphaMode::Mask { cutoff: 0.25 },
-        |o| o.material.base_color_texture = Some(TextureRef { texture: 1, tex_coord: 0 }),
-        |o| o.material.emissive_texture = Some(TextureRef { texture: 1, tex_coord: 0 }),
+        |o| o.material.base_color_texture = Some(TextureRef::new(1, 0)),
+        |o| o.material.emissive_texture = Some(TextureRef::new(1, 0)),
         |o| o.material.metallic_roughness_texture = None,
-        |o| o.material.metallic_roughness_texture = Some(TextureRef { texture: 1, tex_coord: 0 }),
-        |o| o.material.metallic_roughness_texture = Some(TextureRef { texture: 0, tex_coord: 1 }),
+        |o| o.material.metallic_roughness_texture = Some(TextureRef::new(1, 0)),
+        |o| o.material.metallic_roughness_texture = Some(TextureRef::new(0, 1)),
+        |o| o.material.metallic_roughness_texture = Some(mirrored(TextureRef::new(0, 0))),
         |o| o.textures[0].wrap[1] = Wrap::ClampToEdge,
         |o| o.textures[0].nearest = true,
         |o| *image_texel(o, 0) += 1,
@@ -103,11 +108,12 @@ fn every_input_changes_the_key() {
 
 #[test]
 fn what_voxelization_does_not_read_changes_no_key() {
-    let changes: [fn(&mut Object); 9] = [
+    let changes: [fn(&mut Object); 10] = [
         |o| o.material.name = "another".to_owned(),
         |o| o.material.double_sided = true,
+        |o| o.material.unlit = true,
         |o| o.material.normal_scale = 0.5,
-        |o| o.material.normal_texture = Some(TextureRef { texture: 1, tex_coord: 0 }),
+        |o| o.material.normal_texture = Some(TextureRef::new(1, 0)),
         |o| o.primitive.tangents = vec![Vec4::X; 4],
         |o| o.textures[0].name = "another".to_owned(),
         |o| *image_texel(o, 1) += 1,
@@ -116,8 +122,8 @@ fn what_voxelization_does_not_read_changes_no_key() {
     ];
     for (number, change) in changes.into_iter().enumerate() {
         let mut object = changed(change);
-        if number == 7 {
-            object.material.metallic_roughness_texture = Some(TextureRef { texture: 1, tex_coord: 0 });
+        if number == 8 {
+            object.material.metallic_roughness_texture = Some(TextureRef::new(1, 0));
         }
         assert_eq!(key_of(&object, Thin), key_of(&rich(), Thin), "change {number}");
     }
