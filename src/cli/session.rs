@@ -78,7 +78,7 @@ pub fn prepare_only(scene: &Path, disk: Option<&DiskCache>, settings: &Settings)
     let prepared = voxelize(Arc::new(open_scene(scene)?), settings, stores)?;
     output::warnings(&prepared.warnings);
     if disk.is_some() {
-        output::message(&prepared.origins.to_string());
+        output::message(&format!("{}, in {:.0} ms", prepared.origins, prepared.voxelize_ms));
     }
     warn_of_time(&prepared, settings)?;
     Ok(prepared)
