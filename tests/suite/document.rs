@@ -104,6 +104,7 @@ impl Document {
         }
         let joints: Vec<usize> =
             (0..joint_count).map(|joint| document.add("nodes", json!({ "translation": [joint, 0, 0] }))).collect();
+        document.add("nodes", json!({ "name": "root", "children": &joints }));
         document.add("skins", json!({ "joints": joints }));
         document.json["nodes"][0]["skin"] = json!(0);
         document

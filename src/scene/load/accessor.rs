@@ -107,6 +107,10 @@ impl<'a> Elements<'a> {
         Self { bytes: Cow::Borrowed(bytes), stride, component, normalized, count: bytes.len() / stride.max(1), lanes }
     }
 
+    pub fn is_u32(&self) -> bool {
+        self.component == ComponentType::U32
+    }
+
     /// Chosen elements as floats; normalised integers become fractions. `N` must be `lanes`.
     pub fn floats<const N: usize>(&self, pick: impl IntoIterator<Item = usize>) -> Result<Vec<[f32; N]>, String> {
         self.expect_lanes(N)?;

@@ -15,6 +15,9 @@ use super::{
 };
 use crate::scene::{Channel, Clip, Interpolation, LocalTransform, Node, Property};
 
+/// Quaternions of normalised bytes are this far from unit length.
+const UNIT_TOLERANCE: f64 = 0.01;
+
 /// `rank` leads from the file's node numbers to those of `nodes`.
 pub(super) fn load(
     source: &Source,
@@ -58,7 +61,23 @@ pub(super) fn load(
         }
         let sampler = animation.samplers.get(channel.sampler.value());
         let sampler = sampler.ok_or_else(|| Defect::new(object(), "names a sampler that does not exist"))?;
-        channels.push(read_channel(source, sampler, node, property).about(object)?);
+        let times = &source.root.accessors[sampler.input.value()];
+        if times.buffer_view.is_none() && times.sparse.is_none() && times.count.0 > 1 {
+            warnings.push(format!("{}: its key times have no data; it is left out", object()));
+            continue;
+        }
+        let mut channel = read_channel(source, sampler, node, property).about(object)?;
+        if property == Property::Rotation {
+            let off = make_unit(&mut channel).about(object)?;
+            if off > UNIT_TOLERANCE {
+                warnings.push(format!(
+                    "{}: its rotations are not unit quaternions (off by {off:.3}); they are normalised",
+                    object()
+                ));
+            }
+        }
+        channel.check().about(object)?;
+        channels.push(channel);
     }
     for node in morphed {
         let node = &nodes[node].name;
@@ -88,18 +107,30 @@ fn read_channel(
     let times: Vec<[f32; 1]> = input.floats(0..input.count)?;
     let times_secs: Vec<f64> = times.into_iter().map(|[time]| f64::from(time)).collect();
     let output = source.elements(sampler.output)?;
-    let mut values: Vec<f64> = match property {
+    let values: Vec<f64> = match property {
         Property::Rotation => output.floats::<4>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
         _ => output.floats::<3>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
     };
-    if property == Property::Rotation && interpolation != Interpolation::CubicSpline {
-        for (key, rotation) in values.chunks_exact_mut(4).enumerate() {
-            let unit = unit_quaternion([rotation[0], rotation[1], rotation[2], rotation[3]]);
-            let unit = unit.ok_or_else(|| format!("has a rotation at key {key} that is zero or not finite"))?;
+    Ok(Channel { node, property, interpolation, times_secs, values })
+}
+
+/// Normalises the rotations at the keys, where nothing normalises after interpolation; returns by
+/// how much the length of one is off.
+fn make_unit(channel: &mut Channel) -> Result<f64, String> {
+    let mut off: f64 = 0.0;
+    let is_spline = channel.interpolation == Interpolation::CubicSpline;
+    for (row, rotation) in channel.values.chunks_exact_mut(4).enumerate() {
+        // Of the three rows of a spline's key, the first and last are tangents.
+        if is_spline && row % 3 != 1 {
+            continue;
+        }
+        let value = [rotation[0], rotation[1], rotation[2], rotation[3]];
+        off = off.max((value.iter().map(|lane| lane * lane).sum::<f64>().sqrt() - 1.0).abs());
+        if !is_spline {
+            let unit = unit_quaternion(value)
+                .ok_or_else(|| format!("has a rotation at key {row} that is zero or not finite"))?;
             rotation.copy_from_slice(&unit.to_array());
         }
     }
-    let channel = Channel { node, property, interpolation, times_secs, values };
-    channel.check()?;
-    Ok(channel)
+    Ok(off)
 }

@@ -45,9 +45,6 @@ impl<'a> Attributes<'a> {
             let (weights, targets) = (weights.len(), counted(targets.len(), "morph target", "morph targets"));
             warnings.push(format!("{primitive}: it has {targets}, and its mesh or node has {weights} weights"));
         }
-        if declared.attributes.contains_key(&Checked::Invalid) {
-            warnings.push(format!("{primitive}: it has an attribute that glTF does not know, which is ignored"));
-        }
         let draco = draco::Decoded::of(source, &primitive, declared)?;
         let morphs = targets.iter().zip(weights.iter().copied()).filter(|&(_, weight)| weight != 0.0).collect();
         let mut attributes =
@@ -135,9 +132,14 @@ impl<'a> Attributes<'a> {
     }
 
     pub fn tex_coords(&self, set: u32) -> Result<Vec<Vec2>, Defect> {
-        match self.has(Semantic::TexCoords(set)) {
-            true => Ok(self.floats(&Semantic::TexCoords(set))?.into_iter().map(Vec2::from_array).collect()),
-            false => Ok(Vec::new()),
+        let semantic = Semantic::TexCoords(set);
+        match self.elements(&semantic)? {
+            Some(elements) if elements.is_u32() => Err(Defect::new(
+                self.object(&semantic),
+                "holds 32-bit integers, and floats or normalised integers are needed",
+            )),
+            Some(_) => Ok(self.floats(&semantic)?.into_iter().map(Vec2::from_array).collect()),
+            None => Ok(Vec::new()),
         }
     }
 

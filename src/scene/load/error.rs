@@ -16,7 +16,6 @@ pub enum LoadError {
 /// A [`LoadError`] before the file's name is known.
 #[derive(Debug)]
 pub(in crate::scene::load) enum Defect {
-    Unreadable { cause: String },
     Invalid { object: String, cause: String },
     Cancelled,
 }
@@ -29,7 +28,6 @@ impl Defect {
     pub fn in_file(self, file: &str) -> LoadError {
         let file = file.to_owned();
         match self {
-            Self::Unreadable { cause } => LoadError::Unreadable { file, cause },
             Self::Invalid { object, cause } => LoadError::Invalid { file, object, cause },
             Self::Cancelled => LoadError::Cancelled { file },
         }

@@ -35,6 +35,7 @@ mod source;
 mod spec_gloss;
 mod texture;
 mod uri;
+mod usage_check;
 mod weights;
 
 use std::path::Path;
@@ -51,7 +52,6 @@ use self::{
     shapes::Shapes,
     source::Source,
     texture::Textures,
-    uri::Target,
 };
 use super::{Clip, Node, Scene};
 use crate::progress::Progress;
@@ -65,7 +65,7 @@ pub fn open(path: &Path, progress: &Progress) -> Result<Scene, LoadError> {
 pub fn open_with(path: &Path, options: &OpenOptions, progress: &Progress) -> Result<Scene, LoadError> {
     let file = path.display().to_string();
     let budget = Budget::new(options.memory_budget_bytes);
-    let bytes = read_file(path, &budget).map_err(|defect| defect.in_file(&file))?;
+    let bytes = uri::read_file(path, &budget).map_err(|cause| LoadError::Unreadable { file: file.clone(), cause })?;
     let mut scene = read(&bytes, path.parent(), options, &budget, progress).map_err(|defect| defect.in_file(&file))?;
     scene.name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     scene.source = Some(path.to_owned());
@@ -81,10 +81,6 @@ pub fn open_bytes(name: &str, bytes: &[u8], base_dir: Option<&Path>, progress: &
     Ok(Scene { name: name.to_owned(), ..scene })
 }
 
-fn read_file(path: &Path, budget: &Budget) -> Result<Vec<u8>, Defect> {
-    Target::File(path.to_owned()).read(budget).map_err(|cause| Defect::Unreadable { cause })
-}
-
 fn read(
     bytes: &[u8],
     base_dir: Option<&Path>,
@@ -96,6 +92,7 @@ fn read(
     let source = Source::read(bytes, base_dir, budget, progress, &mut warnings)?;
     let root = &source.root;
     accessor_check::check(&source, progress, &mut warnings)?;
+    usage_check::check(&source, &mut warnings);
     let shown_scene = shown_scene(root, options, &mut warnings)?;
     let (cameras, camera_places) = cameras::load(root, &mut warnings);
     let (lights, light_places) = lights::load(root, &mut warnings);
@@ -105,6 +102,7 @@ fn read(
     let mut nodes = hierarchy.nodes(root, shown_scene, places, &mut warnings)?;
     let mut meshes = shapes.meshes;
     let skins = skin::load_all(&source, &hierarchy.rank, &mut warnings)?;
+    skin::check_roots(&skins, &nodes, &mut warnings);
     skin::bind(&mut nodes, &mut meshes, &skins, &mut warnings)?;
     let clips = read_clips(&source, &hierarchy, &nodes, progress, &mut warnings)?;
     instances::expand(&source, &hierarchy.rank, &mut nodes, &mut warnings)?;

@@ -53,6 +53,12 @@ impl Hierarchy {
         warnings: &mut Vec<String>,
     ) -> Result<Vec<Node>, Defect> {
         let drawn = self.drawn(root, shown_scene);
+        for (index, scene) in root.scenes.iter().enumerate() {
+            for node in scene.nodes.iter().map(|node| node.value()).filter(|&node| self.parents[node].is_some()) {
+                let [scene, node] = [label("scene", index, scene.name.as_deref()), label("node", node, None)];
+                warnings.push(format!("{scene}: {node} is not a root of its tree, and is drawn with what is below it"));
+            }
+        }
         let hidden = self.order.iter().filter(|&&node| !drawn[node] && root.nodes[node].mesh.is_some()).count();
         if hidden > 0 {
             let left_out = counted(hidden, "node with a mesh is", "nodes with a mesh are");
@@ -65,6 +71,10 @@ impl Hierarchy {
                 let object = || label("node", index, node.name.as_deref());
                 let local = local_transform(node, &object, warnings)?;
                 let shown = drawn[index];
+                let joints = node.skin.iter().flat_map(|skin| &root.skins[skin.value()].joints);
+                if shown && joints.clone().any(|joint| !drawn[joint.value()]) {
+                    warnings.push(format!("{}: joints of its skin are not in the scene that is shown", object()));
+                }
                 Ok(Node {
                     name: node.name.clone().unwrap_or_else(|| format!("node {index}")),
                     parent: self.parents[index].map(|parent| self.rank[parent]),

@@ -36,6 +36,10 @@ impl<'a> Source<'a> {
         let mut source = Self { root, base_dir, budget, buffers: Vec::new(), decoded: BTreeMap::new() };
         for (index, buffer) in source.root.buffers.iter().enumerate() {
             let bytes = source.read_buffer(index, buffer, container.binary, warnings);
+            // The fallback of a compressed buffer need not be there.
+            if let (Err(cause), false) = (&bytes, meshopt::is_fallback(buffer)) {
+                warnings.push(cause.clone());
+            }
             source.buffers.push(bytes);
         }
         source.decode_views(progress)?;

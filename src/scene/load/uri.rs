@@ -8,7 +8,8 @@ use super::budget::Budget;
 /// Where a URI leads.
 pub(super) enum Target {
     Data(Vec<u8>),
-    File(PathBuf),
+    /// Its path, and its name in the document.
+    File(PathBuf, String),
 }
 
 impl Target {
@@ -23,25 +24,29 @@ impl Target {
         }
         let relative = urlencoding::decode(uri).map_err(|_| format!("has the URI {uri:?}, which is not UTF-8"))?;
         match base_dir {
-            Some(base_dir) => Ok(Self::File(base_dir.join(relative.as_ref()))),
+            Some(base_dir) => Ok(Self::File(base_dir.join(relative.as_ref()), relative.into_owned())),
             None => Err(format!("is in the file {relative:?}, but the document was opened from memory")),
         }
     }
 
     /// The bytes; a file must fit in what is left of `budget` before it is read.
     pub fn read(self, budget: &Budget) -> Result<Vec<u8>, String> {
-        let path = match self {
-            Self::Data(bytes) => return Ok(bytes),
-            Self::File(path) => path,
-        };
-        let cannot = |error: std::io::Error| format!("cannot be read: {error}");
-        let length = std::fs::metadata(&path).and_then(|metadata| match metadata.is_file() {
-            true => Ok(metadata.len()),
-            false => Err(std::io::Error::other("it is not a file")),
-        });
-        budget.spend(length.map_err(cannot)?)?;
-        std::fs::read(&path).map_err(cannot)
+        match self {
+            Self::Data(bytes) => Ok(bytes),
+            Self::File(path, name) => read_file(&path, budget).map_err(|cause| format!("({name}) {cause}")),
+        }
     }
+}
+
+/// A regular file that fits in what is left of `budget`. Errors are causes.
+pub(super) fn read_file(path: &Path, budget: &Budget) -> Result<Vec<u8>, String> {
+    let cannot = |error: std::io::Error| format!("cannot be read: {error}");
+    let length = std::fs::metadata(path).and_then(|metadata| match metadata.is_file() {
+        true => Ok(metadata.len()),
+        false => Err(std::io::Error::other("it is not a file")),
+    });
+    budget.spend(length.map_err(cannot)?)?;
+    std::fs::read(path).map_err(cannot)
 }
 
 /// What follows `data:`: `[type][;base64],payload`.

@@ -27,7 +27,7 @@ fn targets() -> Vec<Case> {
                 let first = channels[0].clone();
                 channels.as_array_mut().expect("a list").push(first);
             }),
-            Refused("channel 1: animates what another channel of the clip animates"),
+            Refused("translation of node 0 \"n\": animates what another channel of the clip animates"),
         ),
         case(
             "ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS",

@@ -62,7 +62,7 @@ fn skins() -> Vec<Case> {
         case(
             "SKIN_NO_COMMON_ROOT",
             skinned(|document| {
-                document.json["nodes"][1].as_object_mut().expect("an object").remove("children");
+                document.json["nodes"][3].as_object_mut().expect("an object").remove("children");
             }),
             Opened("root"),
         ),

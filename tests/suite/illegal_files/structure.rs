@@ -140,7 +140,7 @@ fn views() -> Vec<Case> {
     };
     vec![
         case("BUFFER_VIEW_TOO_LONG", view("byteLength", 37), Refused("ends outside buffer 0 (36 bytes)")),
-        case("BUFFER_VIEW_INVALID_BYTE_STRIDE", view("byteStride", 13), Refused("byteStride: it is 13")),
+        case("BUFFER_VIEW_INVALID_BYTE_STRIDE", view("byteStride", 13), Refused("elements of 13 bytes")),
         case(
             "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE",
             triangle(|document| {

@@ -97,10 +97,24 @@ pub fn check(tree: &Value, warnings: &mut Vec<String>) {
         let lacks = |object: &Value| object.get(member).is_some() && object.get(needed).is_none();
         warn(tree, pattern, lacks, |_| format!("its {member} means nothing without a {needed}"), warnings);
     }
+    let mut unknown = Few::default();
+    visit(tree, "meshes/*/primitives/*/attributes/*", &mut |path, _| {
+        if path.last().is_some_and(|name| !is_attribute(name)) {
+            unknown.add(|| format!("{}: glTF knows no such attribute; it is ignored", object_at(tree, path)));
+        }
+    });
+    unknown.append_to(warnings);
     for (pattern, member, other) in EXCLUSIVE {
         let has_both = |object: &Value| object.get(member).is_some() && object.get(other).is_some();
         warn(tree, pattern, has_both, |_| format!("it has both {member} and {other}"), warnings);
     }
+}
+
+/// Names an attribute may have: glTF's own, or one that starts with an underscore.
+fn is_attribute(name: &str) -> bool {
+    let numbered = |prefix: &str| name.strip_prefix(prefix).is_some_and(|set| set.parse::<u32>().is_ok());
+    let sets = ["TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"];
+    ["POSITION", "NORMAL", "TANGENT"].contains(&name) || name.starts_with('_') || sets.into_iter().any(numbered)
 }
 
 fn warn(
