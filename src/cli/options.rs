@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use octolume::data::voxel_cache::VoxelizationMode;
+use octolume::disk_cache::DiskCache;
 use octolume::export;
 use octolume::scene::OrbitCamera;
 use octolume::settings::{Discretization, Filter, Settings, VoxelAnchor};
@@ -52,6 +53,9 @@ pub struct Common {
     /// The first GPU adapter whose name contains this
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
+    /// Neither reads voxels from the disk cache nor keeps any there
+    #[arg(long)]
+    no_cache: bool,
 }
 
 /// Which moment of the animation, where there is just one.
@@ -76,6 +80,11 @@ impl Common {
             settings.look.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
         }
         Ok(settings)
+    }
+
+    /// Where voxels are kept from one opening to the next, if they are.
+    pub fn disk_cache(&self) -> Option<DiskCache> {
+        if self.no_cache { None } else { DiskCache::standard() }
     }
 
     /// The settings that the file named by `--settings` holds, and its size if it is a picture.

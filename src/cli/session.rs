@@ -3,9 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use octolume::disk_cache::DiskCache;
 use octolume::engine::Engine;
 use octolume::gpu::Gpu;
-use octolume::prepare::{Prepared, prepare};
+use octolume::prepare::{Prepared, Stores, prepare_with};
 use octolume::progress::Progress;
 use octolume::scene::{Scene, builtin, load};
 use octolume::settings::Settings;
@@ -23,20 +24,32 @@ pub const NO_PICTURE: [u32; 2] = [1, 1];
 pub struct Session {
     pub prepared: Arc<Prepared>,
     pub engine: Engine,
+    disk: Option<DiskCache>,
 }
 
 impl Session {
     /// Opens and voxelizes a scene for the settings, and takes the adapter the options name.
     pub fn open(scene: &Path, common: &Common, settings: &Settings) -> anyhow::Result<Self> {
+        Self::open_with(scene, common, common.disk_cache(), settings)
+    }
+
+    /// The same, looking for voxels in `disk` alone.
+    pub fn open_with(
+        scene: &Path,
+        common: &Common,
+        disk: Option<DiskCache>,
+        settings: &Settings,
+    ) -> anyhow::Result<Self> {
         let mut engine = take_gpu(common)?;
-        let prepared = prepare_only(scene, settings)?;
+        let prepared = prepare_only(scene, disk.as_ref(), settings)?;
         engine.set_prepared(Some(Arc::clone(&prepared)));
-        Ok(Self { prepared, engine })
+        Ok(Self { prepared, engine, disk })
     }
 
     /// Voxelizes for other settings, keeping what still holds.
     pub fn voxelize_again(&mut self, settings: &Settings) -> anyhow::Result<()> {
-        self.prepared = voxelize(Arc::clone(&self.prepared.scene), settings, Some(&self.prepared))?;
+        let stores = Stores { reuse: Some(&self.prepared), disk: self.disk.as_ref() };
+        self.prepared = voxelize(Arc::clone(&self.prepared.scene), settings, stores)?;
         self.engine.set_prepared(Some(Arc::clone(&self.prepared)));
         Ok(())
     }
@@ -60,9 +73,13 @@ impl Session {
 }
 
 /// Opens and voxelizes a scene, and says what there is to know about it.
-pub fn prepare_only(scene: &Path, settings: &Settings) -> anyhow::Result<Arc<Prepared>> {
-    let prepared = voxelize(Arc::new(open_scene(scene)?), settings, None)?;
+pub fn prepare_only(scene: &Path, disk: Option<&DiskCache>, settings: &Settings) -> anyhow::Result<Arc<Prepared>> {
+    let stores = Stores { reuse: None, disk };
+    let prepared = voxelize(Arc::new(open_scene(scene)?), settings, stores)?;
     output::warnings(&prepared.warnings);
+    if disk.is_some() {
+        output::message(&format!("{}, in {:.0} ms", prepared.origins, prepared.voxelize_ms));
+    }
     warn_of_time(&prepared, settings)?;
     Ok(prepared)
 }
@@ -83,9 +100,9 @@ fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
     Ok(Engine::new(Arc::new(gpu)))
 }
 
-fn voxelize(scene: Arc<Scene>, settings: &Settings, reuse: Option<&Prepared>) -> anyhow::Result<Arc<Prepared>> {
+fn voxelize(scene: Arc<Scene>, settings: &Settings, stores: Stores) -> anyhow::Result<Arc<Prepared>> {
     let prepared =
-        output::with_progress("voxelizing", |progress| prepare(scene, &settings.discretization, reuse, progress));
+        output::with_progress("voxelizing", |progress| prepare_with(scene, &settings.discretization, stores, progress));
     Ok(Arc::new(prepared?))
 }
 

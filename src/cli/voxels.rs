@@ -58,7 +58,7 @@ impl Voxels {
     }
 
     fn exact(&self, settings: &Settings) -> anyhow::Result<(WorldVoxels, Grid)> {
-        let prepared = prepare_only(&self.scene, settings)?;
+        let prepared = prepare_only(&self.scene, self.common.disk_cache().as_ref(), settings)?;
         let voxels = output::with_progress("voxelizing the posed mesh", |progress| {
             prepared.exact_voxels(&settings.motion, progress)
         })?;

@@ -57,7 +57,12 @@ fn inspect(file: &Path) -> Outcome {
     let start = Instant::now();
     let mut command = Command::new("sh");
     command.args(["-c", &format!("ulimit -d {MEMORY_LIMIT_KIB}; exec \"$@\""), "sh"]);
-    command.arg(assert_cmd::cargo::cargo_bin!("octolume")).arg("info").arg(file).args(["--json", "--grid", "64"]);
+    command.arg(assert_cmd::cargo::cargo_bin!("octolume")).arg("info").arg(file).args([
+        "--json",
+        "--grid",
+        "64",
+        "--no-cache",
+    ]);
     let output = command.timeout(TIME_LIMIT).output().expect("the program starts");
     let json: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
     let warnings = json["warnings"].as_array().into_iter().flatten();
