@@ -4,6 +4,7 @@ mod cache;
 mod corpus;
 mod defects;
 mod files;
+mod models;
 mod pictures;
 mod reports;
 mod scenes;
