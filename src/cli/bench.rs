@@ -94,7 +94,7 @@ impl Bench {
         self.moment.apply(&mut settings);
         settings.look.view = View::Voxels;
         settings.check().map_err(Usage)?;
-        let mut session = Session::open(&self.scene, &self.common, &settings)?;
+        let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         let report = self.measure(&mut session, settings)?;
         if self.json { output::json(&report) } else { output::result(&report.text()) }
     }

@@ -26,10 +26,11 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name.
-    pub fn open(scene: &Path, common: &Common, settings: &Settings) -> anyhow::Result<Self> {
+    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name. What the
+    /// options hide is added to the settings.
+    pub fn open(scene: &Path, common: &Common, settings: &mut Settings) -> anyhow::Result<Self> {
         let mut engine = take_gpu(common)?;
-        let prepared = prepare_only(scene, settings)?;
+        let prepared = prepare_only(scene, common, settings)?;
         engine.set_prepared(Some(Arc::clone(&prepared)));
         Ok(Self { prepared, engine })
     }
@@ -51,17 +52,23 @@ impl Session {
     /// Voxelizes the posed mesh exactly: the truth for ghost and accuracy.
     pub fn take_exact(&mut self, settings: &Settings) -> anyhow::Result<()> {
         let prepared = &self.prepared;
-        let exact =
-            output::with_progress("voxelizing the posed mesh", |progress| prepared.exact(&settings.motion, progress))?;
+        let hidden = prepared.hidden(&settings.visibility)?;
+        let exact = output::with_progress("voxelizing the posed mesh", |progress| {
+            prepared.exact(&settings.motion, &hidden, progress)
+        })?;
         output::warnings(&exact.warnings);
         self.engine.set_exact(Some(Arc::new(exact)));
         Ok(())
     }
 }
 
-/// Opens and voxelizes a scene, and says what there is to know about it.
-pub fn prepare_only(scene: &Path, settings: &Settings) -> anyhow::Result<Arc<Prepared>> {
-    let prepared = voxelize(Arc::new(open_scene(scene)?), settings, None)?;
+/// Opens and voxelizes a scene, and says what there is to know about it. What the options hide is
+/// added to the settings.
+pub fn prepare_only(scene: &Path, common: &Common, settings: &mut Settings) -> anyhow::Result<Arc<Prepared>> {
+    let scene = open_scene(scene)?;
+    output::warnings(&common.node_names().apply(&scene, &mut settings.visibility)?);
+    settings.visibility.shown_nodes(&scene)?;
+    let prepared = voxelize(Arc::new(scene), settings, None)?;
     output::warnings(&prepared.warnings);
     warn_of_time(&prepared, settings)?;
     Ok(prepared)

@@ -3,6 +3,7 @@
 
 mod exact;
 mod fold;
+mod hidden;
 mod lattice;
 
 use std::collections::HashMap;
@@ -19,7 +20,7 @@ use crate::scene::{Motion, Object, Scene};
 use crate::settings::Discretization;
 use crate::stages::voxelize::{self, TexturePyramids, VoxelizeError};
 
-pub use exact::{ExactError, ExactVoxel, ExactVoxels};
+pub use exact::{ExactError, ExactSurface, ExactVoxel, ExactVoxels};
 pub use fold::{FrameMatrices, MotionError};
 pub use lattice::Lattice;
 
