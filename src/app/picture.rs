@@ -13,6 +13,7 @@ impl App {
     pub(super) fn picture_ui(&mut self, ui: &mut Ui, clock_secs: f64) {
         let rect = ui.available_rect_before_wrap();
         let full_px = viewport::size_px(ui, rect, 1);
+        self.view_px = full_px;
         let camera = self.camera(full_px);
         let (settings, size_px) = self.wanted_picture(ui, full_px, clock_secs);
         if self.scene.is_some()
@@ -37,7 +38,7 @@ impl App {
     }
 
     /// What the camera of the settings is when it frames everything.
-    fn camera(&self, full_px: [u32; 2]) -> OrbitCamera {
+    pub(super) fn camera(&self, full_px: [u32; 2]) -> OrbitCamera {
         self.settings.look.camera.unwrap_or_else(|| {
             let mut camera = OrbitCamera::default();
             let aspect = f64::from(full_px[0]) / f64::from(full_px[1]);
@@ -122,7 +123,7 @@ impl App {
             };
             painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(15.0), theme::WEAK);
         }
-        let hint = "drag: orbit   right drag: pan   wheel: zoom   F: frame all";
+        let hint = "drag: orbit   right drag: pan   wheel: zoom   F: frame";
         legend::caption(&painter, rect.left_bottom() + vec2(14.0, -10.0), Align2::LEFT_BOTTOM, hint);
         let coarse = if size_px == full_px { "" } else { ", coarse" };
         let size = format!("{} × {} px{coarse}", size_px[0], size_px[1]);

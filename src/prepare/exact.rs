@@ -58,8 +58,7 @@ impl Prepared {
         progress: &Progress,
     ) -> Result<ExactVoxels, ExactError> {
         let pose = self.pose(motion)?;
-        let per_object =
-            self.each_shown(hidden, progress, |object| self.posed_cells(object, &pose, progress))?;
+        let per_object = self.each_shown(hidden, progress, |object| self.posed_cells(object, &pose, progress))?;
         let words = (1_usize << (3 * self.grid.depth)).div_ceil(32);
         let mut exact = ExactVoxels { bits: vec![0; words], count: 0, warnings: Vec::new() };
         for cells in per_object {

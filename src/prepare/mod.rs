@@ -3,6 +3,7 @@
 
 mod exact;
 mod fold;
+mod framing;
 mod hidden;
 mod lattice;
 

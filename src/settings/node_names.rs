@@ -51,7 +51,8 @@ fn named(scene: &Scene, name: &str) -> Result<BTreeSet<usize>, VisibilityError> 
     if !nodes.is_empty() {
         return Ok(nodes);
     }
-    let meshes: BTreeSet<&str> = scene.nodes.iter().filter(|node| node.mesh.is_some()).map(|node| &*node.name).collect();
+    let meshes: BTreeSet<&str> =
+        scene.nodes.iter().filter(|node| node.mesh.is_some()).map(|node| &*node.name).collect();
     let listed: Vec<String> = meshes.iter().take(LISTED_NAMES).map(|name| format!("\"{name}\"")).collect();
     let known = match meshes.len() - listed.len() {
         0 if listed.is_empty() => "none of its nodes has a mesh".to_owned(),

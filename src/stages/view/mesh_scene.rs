@@ -126,8 +126,7 @@ impl MeshScene {
             self.objects.iter().filter(|(_, object)| is_skinned(object)).map(|(_, object)| object.mesh).collect();
         let shown = self.objects.iter().filter(|(number, _)| !hidden.contains(*number as usize));
         let meshes: BTreeSet<usize> = shown.map(|(_, object)| object.mesh).collect();
-        let (skinned, rigid): (Vec<usize>, Vec<usize>) =
-            meshes.iter().partition(|mesh| skinned_at_all.contains(*mesh));
+        let (skinned, rigid): (Vec<usize>, Vec<usize>) = meshes.iter().partition(|mesh| skinned_at_all.contains(*mesh));
         let mut waiting = Vec::new();
         if self.white.is_none() {
             waiting.push(Waiting::White);
