@@ -65,6 +65,12 @@ impl Window {
         self.0.check_accessibility();
     }
 
+    /// Lets the notes in the corner go: they lie over the view.
+    pub fn outlast_notes(&mut self) {
+        // A step is a quarter of a second of the window's clock, and no note stays for ten.
+        self.0.run_steps(40);
+    }
+
     pub fn app(&self) -> &App {
         self.0.state()
     }
