@@ -1,6 +1,7 @@
 //! The program as a script sees it: exit codes, standard output, files.
 
 mod files;
+mod hidden;
 mod pictures;
 mod reports;
 mod scenes;

@@ -21,6 +21,7 @@ mod gpu_errors;
 mod hard_cases;
 mod hidden;
 mod loading;
+mod lost_device;
 mod mesh_rig;
 mod mesh_view;
 mod motion;
