@@ -51,6 +51,24 @@ fn hiding_changes_the_picture_and_showing_brings_it_back() {
 }
 
 #[test]
+fn hiding_is_undone_and_done_again() {
+    let mut window = courtyard();
+    let all = window.view();
+    window.select("walls");
+    window.press(Modifiers::NONE, Key::H);
+    let without = window.view();
+    // Later, or it would be one step with the hiding.
+    window.0.run_steps(8);
+    window.click("Nearest");
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(difference(&without, &window.view()), 0, "the filter is undone");
+    window.click("Undo");
+    assert_eq!(difference(&all, &window.view()), 0, "the hiding is undone");
+    window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(difference(&without, &window.view()), 0, "and done again");
+}
+
+#[test]
 fn isolating_shows_one_alone_in_every_view() {
     let mut window = courtyard();
     let mut all = window.view();
