@@ -15,6 +15,7 @@ mod builtin;
 mod camera;
 mod device;
 mod disk_cache;
+mod disk_cache_folder;
 mod disk_cache_key;
 mod document;
 mod dummies;
