@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::App;
 use super::playback;
 use crate::scene::OrbitCamera;
-use crate::settings::{Discretization, Look, MotionSettings};
+use crate::settings::{Discretization, Look, MotionSettings, Visibility};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
@@ -29,6 +29,16 @@ pub enum Command {
     SceneCamera(usize),
     /// Back to the camera that frames everything.
     FrameAll,
+    /// Brings the selected node into view, everything where none is selected.
+    Frame,
+    /// A node of the scene tree, or none.
+    Select(Option<usize>),
+    /// Hides the selected node, or shows it again.
+    ToggleShown,
+    /// Shows the selected node alone.
+    Isolate,
+    ShowAll,
+    ToggleTree,
     SaveScreenshot,
     ClearLog,
 }
@@ -48,6 +58,12 @@ impl App {
             }
             Command::SceneCamera(camera) => self.look_through(camera),
             Command::FrameAll => self.settings.look.camera = None,
+            Command::Frame => self.frame_selected(),
+            Command::Select(node) => self.select(node),
+            Command::ToggleShown => self.toggle_shown(),
+            Command::Isolate => self.isolate(),
+            Command::ShowAll => self.settings.visibility = Visibility::default(),
+            Command::ToggleTree => self.desk.unfolded.tree ^= true,
             Command::Move(motion) => {
                 self.settings.motion = motion;
                 self.restart_clock(clock_secs);

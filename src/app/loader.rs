@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::background::{Background, Outcome};
+use super::outline::Outline;
 use crate::prepare::{PrepareError, Prepared, prepare};
 use crate::progress::Progress;
 use crate::scene::load::{self, LoadError};
@@ -15,6 +16,7 @@ use crate::settings::Discretization;
 #[derive(Clone)]
 pub struct Ready {
     pub prepared: Arc<Prepared>,
+    pub outline: Arc<Outline>,
     pub discretization: Discretization,
     /// Another scene than before, not another grid for the same one.
     pub is_new: bool,
@@ -122,7 +124,10 @@ fn voxelize(
     progress: &Progress,
 ) -> Result<Ready, Failure> {
     match prepare(scene, &discretization, open, progress) {
-        Ok(prepared) => Ok(Ready { prepared: Arc::new(prepared), discretization, is_new: open.is_none() }),
+        Ok(prepared) => {
+            let outline = Arc::new(Outline::new(&prepared));
+            Ok(Ready { prepared: Arc::new(prepared), outline, discretization, is_new: open.is_none() })
+        }
         Err(PrepareError::Cancelled(_)) => Err(Failure::Cancelled),
         Err(error) => Err(Failure::Cause(error.to_string())),
     }

@@ -20,12 +20,15 @@ mod latency;
 mod layout;
 mod legend;
 mod loader;
+mod mentions;
 mod opening;
+mod outline;
 mod panels;
 mod picture;
 mod playback;
 mod rescue;
 mod screenshots;
+mod selection;
 mod shortcuts;
 mod stage;
 mod theme;
@@ -51,7 +54,7 @@ use self::viewport::Viewport;
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
 use crate::scene::Clip;
-use crate::settings::Settings;
+use crate::settings::{NodeNames, Settings};
 
 /// How often a progress bar is redrawn.
 const PROGRESS_STEP: Duration = Duration::from_millis(100);
@@ -60,15 +63,15 @@ const PROGRESS_STEP: Duration = Duration::from_millis(100);
 const WORTH_ANOTHER_DEVICE: Duration = Duration::from_secs(10);
 
 /// Opens the window on a file, or on a built-in scene by its name, and returns when it is closed.
-/// Without a display, or a GPU for it, the error is one sentence. When the GPU is lost, the window
+/// What `names` hides or shows alone is looked up in that scene. Without a display, or a GPU for it, the error is one sentence. When the GPU is lost, the window
 /// is opened again on a new device, with scene and settings kept.
-pub fn run(scene: &Path, settings: Settings, adapter: Option<&str>) -> anyhow::Result<()> {
+pub fn run(scene: &Path, settings: Settings, names: NodeNames, adapter: Option<&str>) -> anyhow::Result<()> {
     if !device::has_display() {
         return Err(anyhow!("there is no display to open a window on; the subcommands work without one"));
     }
     let rescue = Rescue::default();
     let mut opened = Instant::now();
-    open_window(adapter, &rescue, |context| App::new(context, scene, settings))?;
+    open_window(adapter, &rescue, |context| App::new(context, scene, settings, names))?;
     while let Some(kept) = rescue.take() {
         if opened.elapsed() < WORTH_ANOTHER_DEVICE {
             return Err(anyhow!("{}", kept.cause));
@@ -115,8 +118,12 @@ pub struct App {
     viewport: Viewport,
     screenshots: Screenshots,
     desk: Desk,
+    /// What the first scene is to hide, by name.
+    names: NodeNames,
     journal: Journal,
     latency: Latency,
+    /// Pixels of the picture.
+    view_px: [u32; 2],
     render: egui_wgpu::RenderState,
     /// When the camera was moved last, on the window's clock.
     moved_at_secs: Option<f64>,
@@ -125,8 +132,13 @@ pub struct App {
 
 impl App {
     /// Takes the window's device, and starts to open the scene. Fails without a GPU.
-    pub fn new(context: &eframe::CreationContext<'_>, scene: &Path, settings: Settings) -> Result<Self, NoApp> {
-        let mut app = Self::empty(context, settings)?;
+    pub fn new(
+        context: &eframe::CreationContext<'_>,
+        scene: &Path,
+        settings: Settings,
+        names: NodeNames,
+    ) -> Result<Self, NoApp> {
+        let mut app = Self { names, ..Self::empty(context, settings)? };
         app.open(&context.egui_ctx, scene.to_owned());
         Ok(app)
     }
@@ -157,6 +169,8 @@ impl App {
             viewport: Viewport::default(),
             screenshots: Screenshots::default(),
             desk: Desk::default(),
+            names: NodeNames::default(),
+            view_px: [1, 1],
             journal: Journal::default(),
             latency: Latency::new(render.device.clone()),
             render,

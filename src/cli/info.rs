@@ -68,7 +68,7 @@ impl Info {
         self.moment.apply(&mut settings);
         settings.look.view = View::Voxels;
         settings.check().map_err(Usage)?;
-        let mut session = Session::open(&self.scene, &self.common, &settings)?;
+        let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         session.run(&settings, NO_PICTURE)?;
         let levels = session.engine.octree_report().map(|report| report.levels).unwrap_or_default();
         let facts = Facts::new(&session.prepared, &settings, levels);

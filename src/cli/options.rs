@@ -7,7 +7,7 @@ use octolume::data::voxel_cache::VoxelizationMode;
 use octolume::disk_cache::DiskCache;
 use octolume::export;
 use octolume::scene::OrbitCamera;
-use octolume::settings::{Discretization, Filter, Settings, VoxelAnchor};
+use octolume::settings::{Discretization, Filter, NodeNames, Settings, VoxelAnchor};
 
 use super::{Usage, values};
 
@@ -50,6 +50,12 @@ pub struct Common {
     /// The camera's vertical field of view
     #[arg(long, value_name = "DEGREES", value_parser = values::number, allow_hyphen_values = true, requires = "eye")]
     fov: Option<f64>,
+    /// Hides nodes with everything below them, by name; all of the name if several have it. Repeatable
+    #[arg(long, value_name = "NAME")]
+    hide: Vec<String>,
+    /// Shows only these nodes with everything below them, by name; all of the name if several have it. Repeatable
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
     /// The first GPU adapter whose name contains this
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
@@ -85,6 +91,11 @@ impl Common {
     /// Where voxels are kept from one opening to the next, if they are.
     pub fn disk_cache(&self) -> Option<DiskCache> {
         if self.no_cache { None } else { DiskCache::standard() }
+    }
+
+    /// The nodes that options name: which they are depends on the scene.
+    pub fn node_names(&self) -> NodeNames {
+        NodeNames { hide: self.hide.clone(), only: self.only.clone() }
     }
 
     /// The settings that the file named by `--settings` holds, and its size if it is a picture.

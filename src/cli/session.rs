@@ -28,8 +28,9 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name.
-    pub fn open(scene: &Path, common: &Common, settings: &Settings) -> anyhow::Result<Self> {
+    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name. What the
+    /// options hide is added to the settings.
+    pub fn open(scene: &Path, common: &Common, settings: &mut Settings) -> anyhow::Result<Self> {
         Self::open_with(scene, common, common.disk_cache(), settings)
     }
 
@@ -38,10 +39,10 @@ impl Session {
         scene: &Path,
         common: &Common,
         disk: Option<DiskCache>,
-        settings: &Settings,
+        settings: &mut Settings,
     ) -> anyhow::Result<Self> {
         let mut engine = take_gpu(common)?;
-        let prepared = prepare_only(scene, disk.as_ref(), settings)?;
+        let prepared = prepare_only(scene, common, disk.as_ref(), settings)?;
         engine.set_prepared(Some(Arc::clone(&prepared)));
         Ok(Self { prepared, engine, disk })
     }
@@ -64,18 +65,28 @@ impl Session {
     /// Voxelizes the posed mesh exactly: the truth for ghost and accuracy.
     pub fn take_exact(&mut self, settings: &Settings) -> anyhow::Result<()> {
         let prepared = &self.prepared;
-        let exact =
-            output::with_progress("voxelizing the posed mesh", |progress| prepared.exact(&settings.motion, progress))?;
+        let hidden = prepared.hidden(&settings.visibility)?;
+        let exact = output::with_progress("voxelizing the posed mesh", |progress| {
+            prepared.exact(&settings.motion, &hidden, progress)
+        })?;
         output::warnings(&exact.warnings);
         self.engine.set_exact(Some(Arc::new(exact)));
         Ok(())
     }
 }
 
-/// Opens and voxelizes a scene, and says what there is to know about it.
-pub fn prepare_only(scene: &Path, disk: Option<&DiskCache>, settings: &Settings) -> anyhow::Result<Arc<Prepared>> {
-    let stores = Stores { reuse: None, disk };
-    let prepared = voxelize(Arc::new(open_scene(scene)?), settings, stores)?;
+/// Opens and voxelizes a scene, and says what there is to know about it. What the options hide is
+/// added to the settings.
+pub fn prepare_only(
+    scene: &Path,
+    common: &Common,
+    disk: Option<&DiskCache>,
+    settings: &mut Settings,
+) -> anyhow::Result<Arc<Prepared>> {
+    let scene = open_scene(scene)?;
+    output::warnings(&common.node_names().apply(&scene, &mut settings.visibility)?);
+    settings.visibility.shown_nodes(&scene)?;
+    let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;
     output::warnings(&prepared.warnings);
     if disk.is_some() {
         output::message(&format!("{}, in {:.0} ms", prepared.origins, prepared.voxelize_ms));

@@ -9,7 +9,7 @@ pub fn run(scene: &Path, common: &Common, moment: &Moment) -> anyhow::Result<()>
     let mut settings = common.settings()?;
     moment.apply(&mut settings);
     settings.check().map_err(super::Usage)?;
-    octolume::app::run(scene, settings, common.adapter.as_deref())
+    octolume::app::run(scene, settings, common.node_names(), common.adapter.as_deref())
 }
 
 #[cfg(not(feature = "gui"))]

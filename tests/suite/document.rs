@@ -153,8 +153,13 @@ impl Document {
 
     fn with_buffer(&self, buffer: Value) -> Value {
         let mut json = self.json.clone();
-        if !self.bytes.is_empty() && json["buffers"].is_null() {
-            json["buffers"] = json!([buffer]);
+        // A null among given buffers is the place of this one.
+        match json["buffers"].as_array_mut() {
+            Some(buffers) => {
+                buffers.iter_mut().filter(|place| place.is_null()).for_each(|place| *place = buffer.clone())
+            }
+            None if self.bytes.is_empty() => {}
+            None => json["buffers"] = json!([buffer]),
         }
         for list in ["accessors", "bufferViews", "nodes", "meshes"] {
             if self.json[list] == json!([]) {

@@ -6,7 +6,7 @@ use std::time::Duration;
 use glam::{DMat4, DQuat, DVec3, Vec4};
 use octolume::gpu::{Job, Recorder};
 use octolume::scene::{AlphaMode, LocalTransform, Material, Node, Scene, Texture, TextureRef, Trs, Wrap};
-use octolume::settings::{ColorBy, Look};
+use octolume::settings::{ColorBy, Hidden, Look};
 use octolume::stages::view::camera::PixelRays;
 use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
 use octolume::stages::view::mesh_scene::MeshScene;
@@ -100,6 +100,26 @@ fn textures_factors_and_vertex_colours_multiply() {
 }
 
 #[test]
+fn unlit_materials_are_not_shaded_and_transformed_textures_are_read_elsewhere() {
+    let image =
+        image::RgbaImage::from_fn(8, 8, |x, _| image::Rgba(if x < 4 { [188, 0, 0, 255] } else { [0, 188, 0, 255] }));
+    let texture = Texture { name: "halves".to_owned(), image: Arc::new(image), wrap: [Wrap::Repeat; 2], nearest: true };
+    let half_a_texture_on = glam::Affine2::from_translation(glam::Vec2::new(0.5, 0.0));
+    let slot = TextureRef { uv_from_tex_coord: half_a_texture_on, ..TextureRef::new(0, 0) };
+    let material = Material { base_color_texture: Some(slot), unlit: true, ..Material::default() };
+    let scene = Scene { textures: vec![texture], ..one_square(material) };
+    let seen = drawn(gpu(), scene, &Look { shaded: true, ..look() });
+    let half = octolume::stages::view::palette::linear_from_gamma(188.0 / 255.0);
+    for (index, point) in pixels() {
+        let (place, _) = meets(point, 0.0);
+        if place.abs().max_element() < 0.9 && place.x.abs() > 0.15 {
+            let expected = if place.x < 0.0 { DVec3::Y * half } else { DVec3::X * half };
+            assert_color(seen.colors[index], expected, "unlit");
+        }
+    }
+}
+
+#[test]
 fn masks_cut_and_blends_cover_their_share_of_the_pixels() {
     let covered = |alpha: f32, alpha_mode: AlphaMode| {
         let seen = drawn(
@@ -189,12 +209,12 @@ fn slices_of_a_draw_make_the_whole_picture() {
     let gpu = open();
     let objects = (0..).zip(many.objects()).collect();
     let mut mesh = MeshScene::new(Arc::new(many.clone()), objects);
-    while !mesh.upload(&gpu, Duration::ZERO).expect("fits") {}
+    while !mesh.upload(&gpu, &Hidden::default(), Duration::ZERO).expect("fits") {}
     let picture = Picture::new(&gpu, SIZE_PX).expect("fits");
     let depth = picture::depth_buffer(&gpu, SIZE_PX).expect("fits");
     let mut recorder = Recorder::default();
     let (camera, grid, look) = (camera(), grid(), look());
-    let seen = MeshView { camera: &camera, grid: &grid, look: &look };
+    let seen = MeshView { camera: &camera, grid: &grid, look: &look, hidden: &Hidden::default() };
     let target = MeshTarget { picture: &picture, depth: &depth };
     mesh::record(&gpu, &mut recorder, &mut mesh, &many.pose(None, 0.0), seen, target).expect("records");
     let mut job = Job::new(recorder);

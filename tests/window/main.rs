@@ -104,6 +104,7 @@ fn a_lost_gpu_keeps_scene_and_settings_for_a_new_one() {
     let mut again = Window::build(wgpu_setup(), move |context| App::again(context, kept).expect("a window"));
     assert_eq!(again.app().settings().look.level, Some(5));
     again.click("Split");
+    again.outlast_notes();
     assert_eq!(difference(&before, &again.view()), 0, "the same picture on another device");
 }
 

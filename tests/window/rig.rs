@@ -11,7 +11,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use image::RgbaImage;
 use octolume::app::App;
 use octolume::gpu::Gpu;
-use octolume::settings::Settings;
+use octolume::settings::{NodeNames, Settings};
 
 /// No build or voxelization of these scenes takes longer, on any machine.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -42,7 +42,7 @@ impl Window {
         let mut settings = Settings::default();
         settings.discretization.grid = 64;
         let scene = PathBuf::from(scene);
-        Self::build(device, move |context| App::new(context, &scene, settings).expect("a window"))
+        Self::build(device, move |context| App::new(context, &scene, settings, NodeNames::default()).expect("a window"))
     }
 
     pub fn build(device: egui_wgpu::WgpuSetup, app: impl FnOnce(&mut eframe::CreationContext<'static>) -> App) -> Self {
@@ -63,6 +63,12 @@ impl Window {
         }
         self.0.run_steps(4);
         self.0.check_accessibility();
+    }
+
+    /// Lets the notes in the corner go: they lie over the view.
+    pub fn outlast_notes(&mut self) {
+        // A step is a quarter of a second of the window's clock, and no note stays for ten.
+        self.0.run_steps(40);
     }
 
     pub fn app(&self) -> &App {

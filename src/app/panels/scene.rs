@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use egui::{Grid, RichText, TextEdit, Ui};
 
-use super::{bytes, grouped, nothing};
+use super::{bytes, fact, grouped, nothing};
 use crate::app::commands::Command;
 use crate::app::loader::file_name;
 use crate::app::theme;
@@ -108,11 +108,5 @@ fn warnings_ui(ui: &mut Ui, warnings: &[String]) {
         let count = RichText::new(format!("{}, see the log", warnings.len())).color(theme::WARNING);
         ui.label(count).on_hover_text(warnings.join("\n"));
     }
-    ui.end_row();
-}
-
-fn fact(ui: &mut Ui, name: &str, value: &str, tip: &str) {
-    ui.label(RichText::new(name).color(theme::WEAK));
-    ui.add(egui::Label::new(value).truncate()).on_hover_text(tip);
     ui.end_row();
 }

@@ -1,19 +1,12 @@
 //! EXT_meshopt_compression and KHR_meshopt_compression: buffer views that hold compressed bytes.
 
 use draco_gltf::{MeshoptFilter, MeshoptMode, meshopt};
-use gltf::json::{Buffer, buffer::View};
+use gltf::json::buffer::View;
 use serde::Deserialize;
 
 use super::source::Source;
 
 const EXTENSIONS: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
-
-/// Whether a buffer only stands in where compression is not understood.
-pub(super) fn is_fallback(buffer: &Buffer) -> bool {
-    let extensions = buffer.extensions.as_ref().map(|extensions| &extensions.others);
-    let declared = |name: &str| extensions?.get(name)?.get("fallback")?.as_bool();
-    EXTENSIONS.iter().any(|name| declared(name) == Some(true))
-}
 
 /// What a view says about its compressed bytes; an error is a cause.
 pub(super) struct Compressed(Result<Declared, String>);

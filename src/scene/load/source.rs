@@ -36,8 +36,7 @@ impl<'a> Source<'a> {
         let mut source = Self { root, base_dir, budget, buffers: Vec::new(), decoded: BTreeMap::new() };
         for (index, buffer) in source.root.buffers.iter().enumerate() {
             let bytes = source.read_buffer(index, buffer, container.binary, warnings);
-            // The fallback of a compressed buffer need not be there.
-            if let (Err(cause), false) = (&bytes, meshopt::is_fallback(buffer)) {
+            if let (Err(cause), false) = (&bytes, source.is_fallback(index)) {
                 warnings.push(cause.clone());
             }
             source.buffers.push(bytes);
@@ -75,6 +74,12 @@ impl<'a> Source<'a> {
             Cow::Owned(bytes) => bytes.truncate(declared),
         }
         Ok(bytes)
+    }
+
+    /// What stands in where compression is not understood need not be there.
+    fn is_fallback(&self, buffer: usize) -> bool {
+        let mut views = self.root.buffer_views.iter().filter(|view| view.buffer.value() == buffer).peekable();
+        views.peek().is_some() && views.all(|view| meshopt::Compressed::of(view).is_some())
     }
 
     fn decode_views(&mut self, progress: &Progress) -> Result<(), Defect> {
