@@ -12,6 +12,8 @@ use assert_cmd::Command;
 use rayon::prelude::*;
 use serde_json::Value;
 
+use crate::defects;
+
 /// What a file may take.
 const TIME_LIMIT: Duration = Duration::from_secs(10);
 const MEMORY_LIMIT_KIB: u64 = 1024 * 1024;
@@ -76,21 +78,31 @@ fn inspect(file: &Path) -> Outcome {
 fn judge(row: &Row, file: &Path, outcome: &Outcome) -> Result<(), String> {
     let errors = &outcome.errors;
     match (row.kind.as_str(), outcome.exit_code) {
-        (_, None) => Err("ended by a signal: out of memory or out of time".to_owned()),
-        (_, Some(0 | 1)) if errors.contains("panicked at") => Err("panicked".to_owned()),
-        ("valid-but-odd", Some(0)) => Ok(()),
-        ("invalid", Some(0)) if outcome.warnings.is_empty() => Err("opened without a warning".to_owned()),
-        ("invalid", Some(0)) => match outcome.warnings.iter().find(|warning| !errors.contains(*warning)) {
-            Some(silent) => Err(format!("does not print its warning {silent:?}")),
-            None => Ok(()),
-        },
+        (_, None) => return Err("ended by a signal: out of memory or out of time".to_owned()),
+        (_, Some(0 | 1)) if errors.contains("panicked at") => return Err("panicked".to_owned()),
+        ("valid-but-odd", Some(0)) => return Ok(()),
+        ("invalid", Some(0)) => printed(&outcome.warnings, errors)?,
         ("invalid" | "unsupported", Some(1)) => {
             let start = format!("error: {}: ", file.display());
-            let sentence = errors.lines().last().unwrap_or_default();
-            let cause = sentence.strip_prefix(&start).ok_or_else(|| format!("says {errors:?}"))?;
-            if cause.is_empty() { Err("names no cause".to_owned()) } else { Ok(()) }
+            let sentence = errors.lines().last().and_then(|sentence| sentence.strip_prefix(&start));
+            sentence.filter(|cause| !cause.is_empty()).ok_or_else(|| format!("says {errors:?}"))?;
         }
-        (kind, Some(code)) => Err(format!("{kind}, and exits {code}: {errors}")),
+        (kind, Some(code)) => return Err(format!("{kind}, and exits {code}: {errors}")),
+    }
+    match row.codes.is_empty() || defects::is_named(&row.file, &row.codes, errors) {
+        true => Ok(()),
+        false => Err(format!("none of its defects is named: {errors}")),
+    }
+}
+
+/// Every warning of the JSON is a line of standard error, and there is one.
+fn printed(warnings: &[String], errors: &str) -> Result<(), String> {
+    if warnings.is_empty() {
+        return Err("opened without a warning".to_owned());
+    }
+    match warnings.iter().find(|warning| !errors.lines().any(|line| line == format!("warning: {warning}"))) {
+        Some(silent) => Err(format!("does not print {silent:?} as a line")),
+        None => Ok(()),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod cache;
 mod corpus;
+mod defects;
 mod files;
 mod pictures;
 mod reports;

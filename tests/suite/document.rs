@@ -146,9 +146,15 @@ impl Document {
 
     /// As a .glb file.
     pub fn glb(&self) -> Vec<u8> {
-        let json = self.with_buffer(json!({ "byteLength": self.bytes.len() })).to_string().into_bytes();
-        let chunks = [(JSON_CHUNK, json.as_slice()), (BINARY_CHUNK, &self.bytes)];
-        glb(&chunks[..if self.bytes.is_empty() { 1 } else { 2 }])
+        let (json, binary) = self.parts();
+        let json = json.to_string();
+        let chunks = [(JSON_CHUNK, json.as_bytes()), (BINARY_CHUNK, binary)];
+        glb(&chunks[..if binary.is_empty() { 1 } else { 2 }])
+    }
+
+    /// The JSON of [`Self::glb`], and its binary chunk.
+    pub fn parts(&self) -> (Value, &[u8]) {
+        (self.with_buffer(json!({ "byteLength": self.bytes.len() })), &self.bytes)
     }
 
     fn with_buffer(&self, buffer: Value) -> Value {

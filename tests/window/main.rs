@@ -1,9 +1,11 @@
 //! The real window without a display: driven by label on the software GPU, its pixels compared.
 
 mod controls;
+mod files;
 mod rig;
+mod tree;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use egui::{Key, Modifiers, vec2};
@@ -12,6 +14,7 @@ use octolume::app::App;
 use octolume::export::read_settings;
 use octolume::settings::{Filter, View};
 
+use files::Dropped;
 use rig::{Window, assert_changed, difference, new_device, wgpu_setup};
 
 #[test]
@@ -74,9 +77,8 @@ fn a_file_that_cannot_be_opened_leaves_the_scene_open() {
     let before = window.view();
     window.type_into("Path", "no/such/file.glb");
     window.click("Open");
-    ["Timings", "Octree", "Frame plan"].into_iter().for_each(|folded| window.click(folded));
-    window.click("Log");
-    assert!(window.0.query_all_by_label_contains("no/such/file.glb: cannot be read").next().is_some());
+    assert!(window.log_holds("no/such/file.glb: cannot be read"));
+    window.outlast_notes();
     assert_eq!(difference(&before, &window.view()), 0);
 }
 
@@ -135,17 +137,4 @@ fn real_files_open_by_drop() {
     assert!(window.0.query_all_by_label("Fox").next().is_some());
     window.click("Ghost");
     assert_eq!(window.app().settings().look.view, View::Ghost);
-}
-
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
 }
