@@ -8,7 +8,8 @@ use octolume::engine::Engine;
 use octolume::gpu::Gpu;
 use octolume::prepare::{Prepared, Stores, prepare_with};
 use octolume::progress::Progress;
-use octolume::scene::{Scene, builtin, load};
+use octolume::scene::load::{self, OpenOptions};
+use octolume::scene::{Scene, builtin};
 use octolume::settings::Settings;
 
 use super::options::Common;
@@ -83,7 +84,7 @@ pub fn prepare_only(
     disk: Option<&DiskCache>,
     settings: &mut Settings,
 ) -> anyhow::Result<Arc<Prepared>> {
-    let scene = open_scene(scene)?;
+    let scene = open_scene(scene, &common.open_options())?;
     output::warnings(&common.node_names().apply(&scene, &mut settings.visibility)?);
     settings.visibility.shown_nodes(&scene)?;
     let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;
@@ -96,12 +97,12 @@ pub fn prepare_only(
 }
 
 /// Opens a built-in scene by its name, or a file.
-fn open_scene(scene: &Path) -> anyhow::Result<Scene> {
+fn open_scene(scene: &Path, options: &OpenOptions) -> anyhow::Result<Scene> {
     let progress = Progress::default();
     let name = scene.to_str().unwrap_or_default();
     Ok(match builtin::bytes(name) {
         Some(bytes) => load::open_bytes(name, bytes, None, &progress)?,
-        None => output::with_progress("opening", |progress| load::open(scene, progress))?,
+        None => output::with_progress("opening", |progress| load::open_with(scene, options, progress))?,
     })
 }
 

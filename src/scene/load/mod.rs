@@ -45,14 +45,7 @@ use gltf::json::Root;
 pub use error::LoadError;
 pub use options::OpenOptions;
 
-use self::{
-    budget::Budget,
-    error::{Defect, label},
-    nodes::Hierarchy,
-    shapes::Shapes,
-    source::Source,
-    texture::Textures,
-};
+use self::{budget::Budget, error::Defect, nodes::Hierarchy, shapes::Shapes, source::Source, texture::Textures};
 use super::{Clip, Node, Scene};
 use crate::progress::Progress;
 
@@ -133,16 +126,18 @@ fn scene_names(root: &Root) -> Vec<String> {
 }
 
 fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<String>) -> Result<Option<usize>, Defect> {
-    let count = root.scenes.len();
-    let wanted = options.scene.or(root.scene.map(|scene| scene.value()));
-    if options.scene.is_some_and(|scene| scene >= count) {
-        let wanted = options.scene.unwrap_or_default();
-        return Err(Defect::new("scenes", format!("there are {count}, and number {wanted} (from 0) was asked for")));
+    let names = scene_names(root);
+    if let Some(wanted) = &options.scene {
+        let by_number = || wanted.parse().ok().filter(|&number| number < names.len());
+        let shown = names.iter().position(|name| name == wanted).or_else(by_number);
+        let known = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+        let cause =
+            || format!("there is no \"{wanted}\"; the file holds {}", if known.is_empty() { "none" } else { &known });
+        return shown.map(Some).ok_or_else(|| Defect::new("scenes", cause()));
     }
-    let shown = wanted.or((count > 0).then_some(0));
-    if let Some(shown) = shown.filter(|_| count > 1) {
-        let name = label("scene", shown, root.scenes[shown].name.as_deref());
-        warnings.push(format!("the file holds {count} scenes; {name} is shown"));
+    let shown = root.scene.map(|scene| scene.value()).or((!names.is_empty()).then_some(0));
+    if let Some(shown) = shown.filter(|_| names.len() > 1) {
+        warnings.push(format!("the file holds {} scenes; \"{}\" is shown", names.len(), names[shown]));
     }
     Ok(shown)
 }

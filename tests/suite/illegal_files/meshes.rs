@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::{Case, Harmless, Opened, Refused, case, skinned, triangle, with};
+use super::{Case, Opened, Refused, case, skinned, triangle, with};
 use crate::document::{Document, F32, U16, U32};
 
 pub fn cases() -> Vec<Case> {
