@@ -45,7 +45,14 @@ use gltf::json::Root;
 pub use error::LoadError;
 pub use options::OpenOptions;
 
-use self::{budget::Budget, error::Defect, nodes::Hierarchy, shapes::Shapes, source::Source, texture::Textures};
+use self::{
+    budget::Budget,
+    error::{Defect, one_line},
+    nodes::Hierarchy,
+    shapes::Shapes,
+    source::Source,
+    texture::Textures,
+};
 use super::{Clip, Node, Scene};
 use crate::progress::Progress;
 
@@ -68,9 +75,19 @@ pub fn open_with(path: &Path, options: &OpenOptions, progress: &Progress) -> Res
 /// Opens a file already in memory; `name` stands in for its path in messages. Without
 /// `base_dir`, nothing beside it can be read.
 pub fn open_bytes(name: &str, bytes: &[u8], base_dir: Option<&Path>, progress: &Progress) -> Result<Scene, LoadError> {
-    let options = OpenOptions::default();
+    open_bytes_with(name, bytes, base_dir, &OpenOptions::default(), progress)
+}
+
+/// [`open_bytes`], with choices.
+pub fn open_bytes_with(
+    name: &str,
+    bytes: &[u8],
+    base_dir: Option<&Path>,
+    options: &OpenOptions,
+    progress: &Progress,
+) -> Result<Scene, LoadError> {
     let budget = Budget::new(options.memory_budget_bytes);
-    let scene = read(bytes, base_dir, &options, &budget, progress).map_err(|defect| defect.in_file(name))?;
+    let scene = read(bytes, base_dir, options, &budget, progress).map_err(|defect| defect.in_file(name))?;
     Ok(Scene { name: name.to_owned(), ..scene })
 }
 
@@ -116,7 +133,7 @@ fn read(
         shown_scene,
         memory_bytes: budget.spent_bytes(),
         extensions: root.extensions_used.clone(),
-        warnings,
+        warnings: warnings.iter().map(|warning| one_line(warning)).collect(),
     })
 }
 
