@@ -39,6 +39,8 @@ pub enum Command {
     Isolate,
     ShowAll,
     ToggleTree,
+    Undo,
+    Redo,
     SaveScreenshot,
     ClearLog,
 }
@@ -63,6 +65,8 @@ impl App {
             Command::ToggleShown => self.toggle_shown(),
             Command::Isolate => self.isolate(),
             Command::ShowAll => self.settings.visibility = Visibility::default(),
+            Command::Undo => self.undo_or_redo(true),
+            Command::Redo => self.undo_or_redo(false),
             Command::ToggleTree => self.desk.unfolded.tree ^= true,
             Command::Move(motion) => {
                 self.settings.motion = motion;

@@ -28,6 +28,7 @@ impl eframe::App for App {
             self.settings.motion.time_secs = time_secs;
         }
         egui::CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, clock_secs));
+        self.note_for_undo(clock_secs);
         self.journal.show_toasts(&ctx);
         if self.wake_again(&ctx, clock_secs) {
             self.latency.continues(started);

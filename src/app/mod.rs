@@ -32,6 +32,7 @@ mod selection;
 mod shortcuts;
 mod stage;
 mod theme;
+mod undo;
 mod viewport;
 
 use std::path::Path;
@@ -50,6 +51,7 @@ pub use self::rescue::Kept;
 use self::rescue::Rescue;
 use self::screenshots::Screenshots;
 use self::stage::Stage;
+use self::undo::Undo;
 use self::viewport::Viewport;
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
@@ -118,6 +120,7 @@ pub struct App {
     viewport: Viewport,
     screenshots: Screenshots,
     desk: Desk,
+    undo: Undo,
     /// What the first scene is to hide, by name.
     names: NodeNames,
     journal: Journal,
@@ -169,6 +172,7 @@ impl App {
             viewport: Viewport::default(),
             screenshots: Screenshots::default(),
             desk: Desk::default(),
+            undo: Undo::default(),
             names: NodeNames::default(),
             view_px: [1, 1],
             journal: Journal::default(),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::journal::Severity;
 use super::loader::{Ready, same_voxels};
 use super::panels::tree::TreeState;
+use super::undo::Undo;
 use super::{App, panels};
 use crate::prepare::Prepared;
 use crate::scene::Scene;
@@ -72,6 +73,7 @@ impl App {
             }
             self.hide_named(&prepared.scene);
             self.desk.tree = TreeState::default();
+            self.undo = Undo::default();
             self.name_window(ctx, prepared);
             let name = &prepared.scene.name;
             let count = panels::grouped(prepared.voxel_count());

@@ -10,7 +10,10 @@ const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O)
 const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
 
 /// Work also while a person walks the scene tree.
-const LETTERS: [(Modifiers, Key, Command); 5] = [
+const LETTERS: [(Modifiers, Key, Command); 8] = [
+    (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z, Command::Redo),
+    (Modifiers::COMMAND, Key::Z, Command::Undo),
+    (Modifiers::COMMAND, Key::Y, Command::Redo),
     (Modifiers::SHIFT, Key::H, Command::Isolate),
     (Modifiers::ALT, Key::H, Command::ShowAll),
     (Modifiers::NONE, Key::H, Command::ToggleShown),

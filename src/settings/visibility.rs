@@ -38,8 +38,8 @@ impl FromIterator<bool> for Hidden {
 
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum VisibilityError {
-    #[error("node {node} cannot be hidden or shown: {scene} has {nodes} nodes, counted from 0")]
-    UnknownNode { scene: String, node: usize, nodes: usize },
+    #[error("{scene}: node {node} cannot be hidden or shown: {known}")]
+    UnknownNode { scene: String, node: usize, known: String },
     #[error("{scene} has no node called \"{name}\"; {known}")]
     UnknownName { scene: String, name: String, known: String },
     #[error("{scene}: nothing of \"{name}\" can be shown: neither it nor a node below it has a mesh")]
@@ -51,7 +51,11 @@ impl Visibility {
     pub fn shown_nodes(&self, scene: &Scene) -> Result<Vec<bool>, VisibilityError> {
         let nodes = scene.nodes.len();
         if let Some(&node) = self.hidden.iter().chain(&self.only).find(|node| **node >= nodes) {
-            return Err(VisibilityError::UnknownNode { scene: scene.name.clone(), node, nodes });
+            let known = match nodes {
+                0 => "there are no nodes".to_owned(),
+                nodes => format!("the nodes are 0 to {}", nodes - 1),
+            };
+            return Err(VisibilityError::UnknownNode { scene: scene.name.clone(), node, known });
         }
         let hidden = with_descendants(scene, &self.hidden);
         let only = with_descendants(scene, &self.only);
@@ -158,6 +162,6 @@ pub(super) mod tests {
     fn a_node_that_is_not_there_is_named() {
         let visibility = Visibility { only: BTreeSet::from([6]), ..Visibility::default() };
         let error = visibility.shown_nodes(&scene()).expect_err("unknown").to_string();
-        assert_eq!(error, "node 6 cannot be hidden or shown: village has 6 nodes, counted from 0");
+        assert_eq!(error, "village: node 6 cannot be hidden or shown: the nodes are 0 to 5");
     }
 }

@@ -4,6 +4,7 @@ mod cache;
 mod corpus;
 mod defects;
 mod files;
+mod hidden;
 mod pictures;
 mod reports;
 mod scenes;

@@ -180,7 +180,7 @@ fn exact_voxels_and_accuracy_are_of_what_is_shown() {
 fn nodes_that_the_scene_does_not_have_are_refused() {
     let mut engine = engine(scene());
     let error = engine.request(&hiding(&[2]), SIZE_PX).expect_err("no such node").to_string();
-    assert!(error.contains("node 2") && error.contains("2 nodes"), "{error}");
+    assert!(error.contains("node 2") && error.contains("0 to 1"), "{error}");
     let only = Visibility { only: BTreeSet::from([7]), ..Visibility::default() };
     assert!(engine.request(&Settings { visibility: only, ..settings() }, SIZE_PX).is_err());
 }

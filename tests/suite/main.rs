@@ -26,6 +26,7 @@ mod hard_cases;
 mod hidden;
 mod illegal_files;
 mod loading;
+mod lost_device;
 mod mesh_rig;
 mod mesh_view;
 mod motion;

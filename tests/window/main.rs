@@ -2,10 +2,10 @@
 
 mod controls;
 mod files;
+mod opening;
 mod rig;
 mod tree;
 
-use std::path::Path;
 use std::time::Duration;
 
 use egui::{Key, Modifiers, vec2};
@@ -15,7 +15,7 @@ use octolume::export::read_settings;
 use octolume::settings::{Filter, View};
 
 use files::Dropped;
-use rig::{Window, assert_changed, difference, new_device, wgpu_setup};
+use rig::{Window, assert_changed, difference, new_device, shared_models, wgpu_setup};
 
 #[test]
 fn the_camera_orbits_pans_zooms_and_frames_everything_again() {
@@ -126,9 +126,7 @@ fn input_to_paint_is_measured() {
 
 #[test]
 fn real_files_open_by_drop() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders = ["../shared/gltf", "../../shared/gltf"].map(|folder| root.join(folder));
-    let Some(folder) = folders.into_iter().find(|folder| folder.is_dir()) else { return };
+    let Some(folder) = shared_models() else { return };
     let mut window = Window::open("courtyard");
     let courtyard = window.view();
     window.0.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(folder.join("Fox/Fox.glb"))));

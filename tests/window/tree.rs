@@ -51,6 +51,24 @@ fn hiding_changes_the_picture_and_showing_brings_it_back() {
 }
 
 #[test]
+fn hiding_is_undone_and_done_again() {
+    let mut window = courtyard();
+    let all = window.view();
+    window.select("walls");
+    window.press(Modifiers::NONE, Key::H);
+    let without = window.view();
+    // Later, or it would be one step with the hiding.
+    window.0.run_steps(8);
+    window.click("Nearest");
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(difference(&without, &window.view()), 0, "the filter is undone");
+    window.click("Undo");
+    assert_eq!(difference(&all, &window.view()), 0, "the hiding is undone");
+    window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(difference(&without, &window.view()), 0, "and done again");
+}
+
+#[test]
 fn isolating_shows_one_alone_in_every_view() {
     let mut window = courtyard();
     let mut all = window.view();
@@ -178,7 +196,7 @@ fn another_scene_is_shown_whole_and_names_of_the_command_line_hide() {
     settings.visibility.hidden.insert(99_999);
     let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
     assert!(window.app().settings().visibility.shows_all());
-    assert!(window.log_holds("node 99999 cannot be hidden or shown: courtyard has"));
+    assert!(window.log_holds("courtyard: node 99999 cannot be hidden or shown"));
 }
 
 #[test]

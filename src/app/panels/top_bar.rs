@@ -45,6 +45,15 @@ pub fn ui(ui: &mut Ui, bar: &TopBar<'_>, unfolded: &mut Unfolded) -> Vec<Command
             if save.on_hover_text(tip).clicked() {
                 commands.push(Command::SaveScreenshot);
             }
+            // From the right: redo comes first.
+            for (name, tip, command) in [
+                ("Redo", "Sets again what was undone (Ctrl+Shift+Z).", Command::Redo),
+                ("Undo", "Takes back the last change of anything but the time (Ctrl+Z).", Command::Undo),
+            ] {
+                if ui.button(name).on_hover_text(tip).clicked() {
+                    commands.push(command);
+                }
+            }
             ui.separator();
             let adapter = egui::Label::new(RichText::new(bar.adapter).color(theme::WEAK)).truncate();
             ui.add(adapter).on_hover_text("The GPU everything runs on.");
