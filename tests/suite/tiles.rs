@@ -12,13 +12,13 @@ use octolume::prepare::{Prepared, PreparedPart, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{Interpolation, Mesh, Primitive, Property, Scene, Skin, Trs};
 use octolume::settings::{Discretization, Filter, Hidden, MotionSettings, Settings, VoxelAnchor};
-use octolume::stages::transform::skinned_ref;
+use octolume::stages::transform::{rigid_ref, skinned_ref};
 use octolume::stages::voxelize::voxelize_cells;
 
 use crate::device::{gpu, open};
 use crate::moving::check_moved;
 use crate::scenes::{channel, clip, node};
-use crate::stage_rig::{RigPart, World};
+use crate::stage_rig::{RigPart, World, lattice_cell};
 use crate::voxelization::object::{MODES, Object};
 use crate::voxelization::soup::Soup;
 
@@ -171,15 +171,23 @@ fn every_voxel_of_a_long_object_goes_where_the_reference_puts_it() {
         for (number, part) in prepared.parts.iter().enumerate() {
             let rig = rig_part(&prepared, part, &frame, number);
             let maps = maps(&prepared, part, &motion, rig.origin);
+            let map = |voxel: usize| match rig.joints.get(voxel) {
+                None => (maps[0], 5.0),
+                // As for joints of small objects: quotient, product, three sums, then as rigid.
+                Some(joints) => (skinned_ref::blended(joints, &maps), 16.0),
+            };
+            if !frame.resident[number] {
+                let is_inside = |voxel: usize| {
+                    let q = rigid_ref::quantise(rigid_ref::centre(lattice_cell(&rig, voxel), &map(voxel).0));
+                    q.is_none_or(|q| rigid_ref::overlaps_grid(q, i64::from(prepared.grid.cells())))
+                };
+                assert!(!(0..rig.voxels.len()).any(is_inside), "part {number} was left out");
+                continue;
+            }
             let found = World::moved(gpu(), std::slice::from_ref(&rig), prepared.grid.depth, SegmentOrder::default())
                 .fragments(gpu());
-            assert!(frame.resident[number] || found.iter().all(Option::is_none), "part {number} was left out");
             for (voxel, found) in found.iter().enumerate() {
-                let (map, roundings) = match rig.joints.get(voxel) {
-                    None => (maps[0], 5.0),
-                    // As for joints of small objects: quotient, product, three sums, then as rigid.
-                    Some(joints) => (skinned_ref::blended(joints, &maps), 16.0),
-                };
+                let (map, roundings) = map(voxel);
                 check_moved(&rig, &map, voxel, found, roundings).unwrap_or_else(|difference| panic!("{difference}"));
             }
             in_the_grid += found.iter().flatten().count();
