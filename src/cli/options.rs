@@ -8,7 +8,7 @@ use octolume::data::voxel_cache::VoxelizationMode;
 use octolume::disk_cache::DiskCache;
 use octolume::export;
 use octolume::scene::OrbitCamera;
-use octolume::scene::load::OpenOptions;
+use octolume::scene::load::{OpenOptions, SceneChoice};
 use octolume::settings::{Discretization, Filter, NodeNames, Settings, VoxelAnchor};
 
 use super::{Usage, values};
@@ -105,7 +105,8 @@ impl Common {
 
     /// How a file is opened.
     pub fn open_options(&self) -> OpenOptions {
-        let mut options = OpenOptions { scene: self.opening.scene.clone(), ..OpenOptions::default() };
+        let mut options =
+            OpenOptions { scene: self.opening.scene.clone().map(SceneChoice::Named), ..OpenOptions::default() };
         set(&mut options.memory_budget_bytes, self.opening.memory_budget.map(|size| size.0));
         options
     }

@@ -186,8 +186,11 @@ fn the_scene_asked_for_is_shown() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scenes.gltf");
     std::fs::write(&path, document.bytes()).expect("written");
-    let open = |scene: Option<&str>| {
-        let options = scene::load::OpenOptions { scene: scene.map(str::to_owned), ..Default::default() };
+    let open = |wanted: Option<&str>| {
+        let options = scene::load::OpenOptions {
+            scene: wanted.map(|name| scene::load::SceneChoice::Named(name.to_owned())),
+            ..Default::default()
+        };
         scene::load::open_with(&path, &options, &Progress::default())
     };
     for (asked, shown) in [(None, 0), (Some("first"), 0), (Some("1"), 1), (Some("scene 1"), 1)] {

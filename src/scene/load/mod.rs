@@ -43,7 +43,7 @@ use std::path::Path;
 use gltf::json::Root;
 
 pub use error::LoadError;
-pub use options::OpenOptions;
+pub use options::{OpenOptions, SceneChoice};
 
 use self::{
     budget::Budget,
@@ -145,12 +145,10 @@ fn scene_names(root: &Root) -> Vec<String> {
 fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<String>) -> Result<Option<usize>, Defect> {
     let names = scene_names(root);
     if let Some(wanted) = &options.scene {
-        let by_number = || wanted.parse().ok().filter(|&number| number < names.len());
-        let shown = names.iter().position(|name| name == wanted).or_else(by_number);
         let known = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
         let cause =
-            || format!("there is no \"{wanted}\"; the file holds {}", if known.is_empty() { "none" } else { &known });
-        return shown.map(Some).ok_or_else(|| Defect::new("scenes", cause()));
+            || format!("there is no {wanted}; the file holds {}", if known.is_empty() { "none" } else { &known });
+        return wanted.among(&names).map(Some).ok_or_else(|| Defect::new("scenes", cause()));
     }
     let shown = root.scene.map(|scene| scene.value()).or((!names.is_empty()).then_some(0));
     if let Some(shown) = shown.filter(|_| names.len() > 1) {
