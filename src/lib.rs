@@ -13,6 +13,7 @@ pub mod accuracy;
 #[cfg(feature = "gui")]
 pub mod app;
 pub mod data;
+pub mod disk_cache;
 pub mod engine;
 pub mod export;
 pub mod gpu;

@@ -41,8 +41,8 @@ struct DrawParams {
     alpha_mode: u32,
     // Less alpha than this is not there, under ALPHA_MASK.
     cutoff: f32,
-    pad0: u32,
-    pad1: u32,
+    unlit: u32,
+    pad: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: ViewParams;
@@ -141,7 +141,7 @@ fn fragment(v: Vertex) -> Pixel {
     }
     if view.color_by == COLOR_NORMAL {
         color = linear_from_gamma(0.5 * normalize(mesh.world_from_camera * v.normal) + 0.5);
-    } else {
+    } else if draw.unlit == 0u {
         color = headlight(color, v.normal, direction);
     }
     return Pixel(vec4<f32>(gamma_from_linear(color), 1.0), vec4<f32>(length(v.position), 0.0, 0.0, 1.0));

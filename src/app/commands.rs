@@ -11,6 +11,8 @@ use crate::settings::{Discretization, Look, MotionSettings, Visibility};
 pub enum Command {
     /// Opens a file, or a built-in scene by its name.
     Open(PathBuf),
+    /// Shows another scene of the file that is open, by its number.
+    ShowScene(usize),
     /// Lets the desktop's dialog choose one.
     ChooseFile,
     CancelLoading,
@@ -49,7 +51,8 @@ impl App {
     /// Carries out one command. `clock_secs` is the window's clock.
     pub(super) fn apply(&mut self, ctx: &egui::Context, command: Command, clock_secs: f64) {
         match command {
-            Command::Open(path) => self.open(ctx, path),
+            Command::Open(path) => self.open(ctx, path, None),
+            Command::ShowScene(number) => self.show_another_scene(ctx, number),
             Command::ChooseFile => self.desk.choose_file(ctx),
             Command::CancelLoading => self.cancel_loading(),
             Command::Discretize(discretization) => self.settings.discretization = discretization,

@@ -10,16 +10,26 @@ use super::{App, panels};
 use crate::prepare::Prepared;
 use crate::scene::Scene;
 use crate::scene::camera::camera_from_scene_camera;
+use crate::scene::load::SceneChoice;
 use crate::settings::{MotionSettings, NodeNames, Visibility};
 
 impl App {
-    pub(super) fn open(&mut self, ctx: &egui::Context, path: PathBuf) {
+    /// `shown`: which of several scenes in the file.
+    pub(super) fn open(&mut self, ctx: &egui::Context, path: PathBuf, shown: Option<SceneChoice>) {
         // A span, a pose and a camera of one scene mean nothing in another.
         if self.scene.is_some() {
             self.settings.discretization.span = None;
         }
-        self.loader.open(ctx, &path, self.settings.discretization);
+        self.loader.open(ctx, &path, shown, self.settings.discretization);
         self.desk.path = path.display().to_string();
+    }
+
+    /// Opens the file again, at another of its scenes.
+    pub(super) fn show_another_scene(&mut self, ctx: &egui::Context, number: usize) {
+        let source = self.prepared().and_then(|prepared| prepared.scene.source.clone());
+        if let Some(source) = source {
+            self.open(ctx, source, Some(SceneChoice::Number(number)));
+        }
     }
 
     pub(super) fn cancel_loading(&mut self) {
@@ -77,8 +87,10 @@ impl App {
             self.name_window(ctx, prepared);
             let name = &prepared.scene.name;
             let count = panels::grouped(prepared.voxel_count());
-            self.journal
-                .note(Severity::Info, format!("Opened {name}: {count} voxels in {:.0} ms.", prepared.voxelize_ms));
+            self.journal.note(
+                Severity::Info,
+                format!("Opened {name}: {count} voxels in {:.0} ms; {}.", prepared.voxelize_ms, prepared.origins),
+            );
             for warning in &prepared.warnings {
                 self.journal.note(Severity::Warning, warning);
             }

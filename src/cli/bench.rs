@@ -94,7 +94,8 @@ impl Bench {
         self.moment.apply(&mut settings);
         settings.look.view = View::Voxels;
         settings.check().map_err(Usage)?;
-        let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
+        // Voxelization is measured too, so its results are not looked for on the disk.
+        let mut session = Session::open_with(&self.scene, &self.common, None, &mut settings)?;
         let report = self.measure(&mut session, settings)?;
         if self.json { output::json(&report) } else { output::result(&report.text()) }
     }

@@ -6,6 +6,7 @@
 
 mod accuracy;
 mod bench;
+mod cache;
 mod info;
 mod make;
 mod options;
@@ -49,6 +50,7 @@ enum Command {
     Bench(bench::Bench),
     Accuracy(accuracy::Accuracy),
     Make(make::Make),
+    Cache(cache::Cache),
 }
 
 /// Options that are valid one by one but not together.
@@ -67,6 +69,7 @@ pub fn run(arguments: Arguments) -> anyhow::Result<()> {
         Some(Command::Bench(bench)) => bench.run(),
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Make(make)) => make.run(),
+        Some(Command::Cache(cache)) => cache.run(),
     }
 }
 

@@ -3,11 +3,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use octolume::disk_cache::DiskCache;
 use octolume::engine::Engine;
 use octolume::gpu::Gpu;
-use octolume::prepare::{Prepared, prepare};
+use octolume::prepare::{Prepared, Stores, prepare_with};
 use octolume::progress::Progress;
-use octolume::scene::{Scene, builtin, load};
+use octolume::scene::load::{self, OpenOptions};
+use octolume::scene::{Scene, builtin};
 use octolume::settings::Settings;
 
 use super::options::Common;
@@ -23,21 +25,33 @@ pub const NO_PICTURE: [u32; 2] = [1, 1];
 pub struct Session {
     pub prepared: Arc<Prepared>,
     pub engine: Engine,
+    disk: Option<DiskCache>,
 }
 
 impl Session {
     /// Opens and voxelizes a scene for the settings, and takes the adapter the options name. What the
     /// options hide is added to the settings.
     pub fn open(scene: &Path, common: &Common, settings: &mut Settings) -> anyhow::Result<Self> {
+        Self::open_with(scene, common, common.disk_cache(), settings)
+    }
+
+    /// The same, looking for voxels in `disk` alone.
+    pub fn open_with(
+        scene: &Path,
+        common: &Common,
+        disk: Option<DiskCache>,
+        settings: &mut Settings,
+    ) -> anyhow::Result<Self> {
         let mut engine = take_gpu(common)?;
-        let prepared = prepare_only(scene, common, settings)?;
+        let prepared = prepare_only(scene, common, disk.as_ref(), settings)?;
         engine.set_prepared(Some(Arc::clone(&prepared)));
-        Ok(Self { prepared, engine })
+        Ok(Self { prepared, engine, disk })
     }
 
     /// Voxelizes for other settings, keeping what still holds.
     pub fn voxelize_again(&mut self, settings: &Settings) -> anyhow::Result<()> {
-        self.prepared = voxelize(Arc::clone(&self.prepared.scene), settings, Some(&self.prepared))?;
+        let stores = Stores { reuse: Some(&self.prepared), disk: self.disk.as_ref() };
+        self.prepared = voxelize(Arc::clone(&self.prepared.scene), settings, stores)?;
         self.engine.set_prepared(Some(Arc::clone(&self.prepared)));
         Ok(())
     }
@@ -64,23 +78,31 @@ impl Session {
 
 /// Opens and voxelizes a scene, and says what there is to know about it. What the options hide is
 /// added to the settings.
-pub fn prepare_only(scene: &Path, common: &Common, settings: &mut Settings) -> anyhow::Result<Arc<Prepared>> {
-    let scene = open_scene(scene)?;
+pub fn prepare_only(
+    scene: &Path,
+    common: &Common,
+    disk: Option<&DiskCache>,
+    settings: &mut Settings,
+) -> anyhow::Result<Arc<Prepared>> {
+    let scene = open_scene(scene, &common.open_options())?;
     output::warnings(&common.node_names().apply(&scene, &mut settings.visibility)?);
     settings.visibility.shown_nodes(&scene)?;
-    let prepared = voxelize(Arc::new(scene), settings, None)?;
+    let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;
     output::warnings(&prepared.warnings);
+    if disk.is_some() {
+        output::message(&format!("{}, in {:.0} ms", prepared.origins, prepared.voxelize_ms));
+    }
     warn_of_time(&prepared, settings)?;
     Ok(prepared)
 }
 
 /// Opens a built-in scene by its name, or a file.
-fn open_scene(scene: &Path) -> anyhow::Result<Scene> {
+fn open_scene(scene: &Path, options: &OpenOptions) -> anyhow::Result<Scene> {
     let progress = Progress::default();
     let name = scene.to_str().unwrap_or_default();
     Ok(match builtin::bytes(name) {
         Some(bytes) => load::open_bytes(name, bytes, None, &progress)?,
-        None => output::with_progress("opening", |progress| load::open(scene, progress))?,
+        None => output::with_progress("opening", |progress| load::open_with(scene, options, progress))?,
     })
 }
 
@@ -90,9 +112,9 @@ fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
     Ok(Engine::new(Arc::new(gpu)))
 }
 
-fn voxelize(scene: Arc<Scene>, settings: &Settings, reuse: Option<&Prepared>) -> anyhow::Result<Arc<Prepared>> {
+fn voxelize(scene: Arc<Scene>, settings: &Settings, stores: Stores) -> anyhow::Result<Arc<Prepared>> {
     let prepared =
-        output::with_progress("voxelizing", |progress| prepare(scene, &settings.discretization, reuse, progress));
+        output::with_progress("voxelizing", |progress| prepare_with(scene, &settings.discretization, stores, progress));
     Ok(Arc::new(prepared?))
 }
 

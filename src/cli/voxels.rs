@@ -58,7 +58,7 @@ impl Voxels {
     }
 
     fn exact(&self, settings: &mut Settings) -> anyhow::Result<(WorldVoxels, Grid)> {
-        let prepared = prepare_only(&self.scene, &self.common, settings)?;
+        let prepared = prepare_only(&self.scene, &self.common, self.common.disk_cache().as_ref(), settings)?;
         let hidden = prepared.hidden(&settings.visibility)?;
         let surface = output::with_progress("voxelizing the posed mesh", |progress| {
             prepared.exact_voxels(&settings.motion, &hidden, progress)

@@ -24,7 +24,8 @@ use crate::data::pages::SegmentOrder;
 use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, GpuTexture, KernelTiming};
 use crate::plan::{self, Changes, FramePlan, SceneFacts};
 use crate::prepare::{ExactVoxels, FrameMatrices, MotionError, Prepared};
-use crate::settings::{Filter, Hidden, Look, Settings, View, VisibilityError};
+use crate::settings::{ColorBy, Filter, Hidden, Look, Settings, View, VisibilityError};
+use crate::stages::fill::number_objects::OBJECT_MASK;
 use crate::stages::view::Picture;
 use crate::stages::view::mesh_scene::MeshScene;
 
@@ -45,6 +46,8 @@ pub enum EngineError {
     Visibility(#[from] VisibilityError),
     #[error("no scene is open")]
     NoScene,
+    #[error("{scene} has {objects} objects, and colour by object can tell {OBJECT_MASK} apart; choose another colour")]
+    TooManyObjects { scene: String, objects: usize },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,6 +178,7 @@ impl Engine {
     /// What is wanted now. Cheap: the frame begins with the next [`Self::advance`].
     pub fn request(&mut self, settings: &Settings, size_px: [u32; 2]) -> Result<(), EngineError> {
         let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
+        check_object_numbers(prepared, &settings.look)?;
         let hidden = prepared.hidden(&settings.visibility)?;
         let frame = prepared.fold(&settings.motion, settings.discretization.anchor, &hidden)?;
         let facts = scene_on_gpu::facts(prepared, &frame, &hidden);
@@ -279,6 +283,15 @@ impl Engine {
     pub fn memory(&self) -> Vec<BufferUse> {
         self.gpu.memory()
     }
+}
+
+/// A leaf stores its object in 16 bits, of which the largest number stands for none.
+fn check_object_numbers(prepared: &Prepared, look: &Look) -> Result<(), EngineError> {
+    let objects = prepared.objects.len();
+    if look.view == View::Voxels && look.color == ColorBy::Object && objects > OBJECT_MASK as usize {
+        return Err(EngineError::TooManyObjects { scene: prepared.scene.name.clone(), objects });
+    }
+    Ok(())
 }
 
 fn other_filter(filter: Filter) -> Filter {

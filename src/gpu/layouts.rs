@@ -101,7 +101,7 @@ pub const MIRRORS: &[Mirror] = &[
         object,
         alpha_mode,
         cutoff,
-        pad0,
-        pad1,
+        unlit,
+        pad,
     ),
 ];

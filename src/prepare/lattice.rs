@@ -12,7 +12,7 @@ use crate::data::packing::unpack_position;
 use crate::data::voxel_cache::{Tile, VoxelCache};
 use crate::scene::bounds::Aabb;
 use crate::scene::geometry::normal_matrix;
-use crate::scene::{Motion, Object, Pose, Scene};
+use crate::scene::{Motion, MotionReport, Object, Pose, Scene};
 use crate::settings::Discretization;
 
 /// Where an object's cache lies.
@@ -89,10 +89,9 @@ pub fn grid_around(bounds: Option<Aabb>, discretization: &Discretization) -> Res
 }
 
 /// The objects that can be seen at some time, each on its lattice. `cache` is numbered later.
-pub fn visible_objects(scene: &Scene, grid: &Grid) -> Vec<PreparedObject> {
-    let hidden = scene.hidden_objects();
+pub fn visible_objects(scene: &Scene, grid: &Grid, motion: MotionReport) -> Vec<PreparedObject> {
+    let MotionReport { objects, hidden, stretching: _ } = motion;
     let rest = scene.pose(None, 0.0);
-    let objects = scene.objects();
     let mut uses: HashMap<usize, usize> = HashMap::new();
     for object in &objects {
         *uses.entry(object.mesh).or_default() += 1;

@@ -1,6 +1,8 @@
 //! From an opened scene to what the GPU moves: the grid, one voxel cache per (mesh, stretch, span,
-//! mode, lattice phase), and the lattice each object's cache lies on. CPU only, cancellable.
+//! mode, lattice phase), and the lattice each object's cache lies on. CPU only, cancellable. Voxels that
+//! an earlier preparation or a disk cache holds are not made again.
 
+mod caches;
 mod exact;
 mod fold;
 mod framing;
@@ -11,16 +13,17 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
-use rayon::prelude::*;
-
 use crate::data::grid::Grid;
 use crate::data::voxel_cache::{Tile, VoxelCache, VoxelizationMode};
+use crate::disk_cache::TextureHashes;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::bounds::Aabb;
 use crate::scene::{Motion, Object, Scene};
 use crate::settings::Discretization;
-use crate::stages::voxelize::{self, TexturePyramids, VoxelizeError};
+use crate::stages::voxelize::{TexturePyramids, VoxelizeError};
 
+pub use caches::{CacheOrigins, Stores};
+use caches::{Wanted, Work};
 pub use exact::{ExactError, ExactSurface, ExactVoxel, ExactVoxels};
 pub use fold::{FrameMatrices, MotionError};
 pub use lattice::Lattice;
@@ -34,6 +37,8 @@ pub struct Prepared {
     pub mode: VoxelizationMode,
     pub objects: Vec<PreparedObject>,
     pub caches: Vec<Arc<VoxelCache>>,
+    /// Where the caches came from.
+    pub origins: CacheOrigins,
     /// Every tile of every object, rigid ones first, then skinned: the unit of Object I-O.
     pub parts: Vec<PreparedPart>,
     /// The scene's posed bounds over all its animation; `None` where there is nothing to see.
@@ -41,6 +46,7 @@ pub struct Prepared {
     pub warnings: Vec<String>,
     pub voxelize_ms: f64,
     keys: Vec<CacheKey>,
+    texture_hashes: Arc<TextureHashes>,
 }
 
 #[derive(Clone, Debug)]
@@ -82,40 +88,64 @@ struct CacheKey {
     lattice: [u64; 16],
 }
 
-/// Voxelizes every object of `scene` once. Caches of `reuse` that still fit are taken over.
+/// Voxelizes every object of `scene` once. Caches of `reuse` that still fit are taken over. Nothing
+/// is read from or written to the disk.
 pub fn prepare(
     scene: Arc<Scene>,
     discretization: &Discretization,
     reuse: Option<&Prepared>,
     progress: &Progress,
 ) -> Result<Prepared, PrepareError> {
+    prepare_with(scene, discretization, Stores { reuse, disk: None }, progress)
+}
+
+/// The same, looking first for voxels in `stores`; what is voxelized is kept on the disk.
+pub fn prepare_with(
+    scene: Arc<Scene>,
+    discretization: &Discretization,
+    stores: Stores,
+    progress: &Progress,
+) -> Result<Prepared, PrepareError> {
     let started = Instant::now();
     let bounds = scene.bounds_over_time();
     let grid = lattice::grid_around(bounds, discretization)?;
-    let reuse = reuse.filter(|old| Arc::ptr_eq(&old.scene, &scene));
-    let textures =
-        reuse.map_or_else(|| Arc::new(TexturePyramids::new(&scene.textures)), |old| Arc::clone(&old.textures));
+    let motion = scene.motion_report(grid.span);
     let mut warnings = scene.warnings.clone();
-    warnings.extend(scene.motion_warnings(grid.span));
-    let mut objects = lattice::visible_objects(&scene, &grid);
+    warnings.extend(motion.warnings());
+    let mut objects = lattice::visible_objects(&scene, &grid, motion);
     let (keys, first_users) = number_caches(&mut objects);
-    let reusable = reuse
-        .filter(|old| old.grid.span == grid.span && old.grid.anchor == grid.anchor && old.mode == discretization.mode);
-    let work = Work { scene: &scene, textures: &textures, mode: discretization.mode, progress };
-    let old_caches: Vec<Option<Arc<VoxelCache>>> =
-        keys.iter().map(|key| reusable.and_then(|old| old.cache(key))).collect();
-    for (&user, _) in first_users.iter().zip(&old_caches).filter(|(_, old)| old.is_none()) {
-        progress.add_total(work.input(&objects[user]).work_units());
-    }
-    let caches = first_users
-        .par_iter()
-        .zip(old_caches)
-        .map(|(&user, old)| old.map_or_else(|| work.voxelize(&objects[user]).map(Arc::new), Ok))
-        .collect::<Result<Vec<_>, _>>()?;
+    let mode = discretization.mode;
+    let reuse = stores.reuse.filter(|old| Arc::ptr_eq(&old.scene, &scene));
+    let (textures, texture_hashes) = match reuse {
+        Some(old) => (Arc::clone(&old.textures), Arc::clone(&old.texture_hashes)),
+        None => (Arc::new(TexturePyramids::new(&scene.textures)), Arc::new(TextureHashes::new(&scene.textures))),
+    };
+    let reusable = reuse.filter(|old| old.grid.span == grid.span && old.grid.anchor == grid.anchor && old.mode == mode);
+    let wanted: Vec<Wanted> = keys
+        .iter()
+        .zip(&first_users)
+        .map(|(key, &user)| Wanted { object: &objects[user], kept: reusable.and_then(|old| old.cache(key)) })
+        .collect();
+    let work = Work::new(&scene, &textures, &texture_hashes, mode, stores.disk, progress);
+    let (caches, origins) = work.run(wanted)?;
+    warnings.extend(work.into_warning());
     let parts = list_parts(&objects, &caches);
     let voxelize_ms = started.elapsed().as_secs_f64() * 1e3;
-    let mode = discretization.mode;
-    Ok(Prepared { scene, textures, grid, mode, objects, caches, parts, bounds, warnings, voxelize_ms, keys })
+    Ok(Prepared {
+        scene,
+        textures,
+        grid,
+        mode,
+        objects,
+        caches,
+        origins,
+        parts,
+        bounds,
+        warnings,
+        voxelize_ms,
+        keys,
+        texture_hashes,
+    })
 }
 
 impl Prepared {
@@ -153,38 +183,6 @@ fn number_caches(objects: &mut [PreparedObject]) -> (Vec<CacheKey>, Vec<usize>) 
         });
     }
     (keys, first_users)
-}
-
-struct Work<'a> {
-    scene: &'a Scene,
-    textures: &'a TexturePyramids,
-    mode: VoxelizationMode,
-    progress: &'a Progress,
-}
-
-impl<'a> Work<'a> {
-    fn input(&self, object: &PreparedObject) -> voxelize::VoxelizeInput<'a> {
-        let lattice = &object.lattice;
-        let parts = self.scene.meshes[object.object.mesh].primitives.iter().map(|primitive| voxelize::VoxelizePart {
-            primitive,
-            positions_cells: primitive.positions.iter().map(|p| lattice.cells_from_mesh(p.as_dvec3())).collect(),
-            normals: lattice::normals_in_cells(lattice, &primitive.normals),
-        });
-        voxelize::VoxelizeInput {
-            parts: parts.collect(),
-            materials: &self.scene.materials,
-            textures: self.textures,
-            mode: self.mode,
-            with_joints: matches!(object.object.motion, Motion::Skinned { .. }),
-        }
-    }
-
-    fn voxelize(&self, object: &PreparedObject) -> Result<VoxelCache, PrepareError> {
-        voxelize::voxelize(&self.input(object), self.progress).map_err(|cause| match cause {
-            VoxelizeError::Cancelled(cancelled) => PrepareError::Cancelled(cancelled),
-            cause => PrepareError::Object { scene: self.scene.name.clone(), object: object.object.name.clone(), cause },
-        })
-    }
 }
 
 /// Rigid parts first, so that one work list serves both kernels.

@@ -44,7 +44,7 @@ pub struct Channel {
     pub values: Vec<f64>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Property {
     Translation,
     Rotation,
@@ -52,6 +52,15 @@ pub enum Property {
 }
 
 impl Property {
+    /// As glTF calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Translation => "translation",
+            Self::Rotation => "rotation",
+            Self::Scale => "scale",
+        }
+    }
+
     /// Numbers a value has.
     pub fn width(self) -> usize {
         match self {

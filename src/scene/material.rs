@@ -1,5 +1,6 @@
 //! glTF's metallic-roughness materials and the images they read.
 
+use glam::{Affine2, Vec2};
 use image::RgbaImage;
 
 #[derive(Clone, Debug)]
@@ -19,6 +20,8 @@ pub struct Material {
     pub emissive_texture: Option<TextureRef>,
     pub alpha_mode: AlphaMode,
     pub double_sided: bool,
+    /// KHR_materials_unlit: shows its base colour whatever the light.
+    pub unlit: bool,
 }
 
 impl Default for Material {
@@ -37,6 +40,7 @@ impl Default for Material {
             emissive_texture: None,
             alpha_mode: AlphaMode::Opaque,
             double_sided: false,
+            unlit: false,
         }
     }
 }
@@ -55,6 +59,20 @@ pub struct TextureRef {
     pub texture: usize,
     /// 0 or 1: which `TEXCOORD_n`.
     pub tex_coord: usize,
+    /// KHR_texture_transform.
+    pub uv_from_tex_coord: Affine2,
+}
+
+impl TextureRef {
+    /// Reads the texture where the coordinates say, untransformed.
+    pub const fn new(texture: usize, tex_coord: usize) -> Self {
+        Self { texture, tex_coord, uv_from_tex_coord: Affine2::IDENTITY }
+    }
+
+    /// Where the texture is read for a vertex of this texture coordinate.
+    pub fn uv(&self, tex_coord: Vec2) -> Vec2 {
+        self.uv_from_tex_coord.transform_point2(tex_coord)
+    }
 }
 
 /// An image and how it is addressed. Texels are stored as in the file (8-bit, sRGB for colours).

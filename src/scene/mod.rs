@@ -44,6 +44,11 @@ pub struct Scene {
     pub clips: Vec<Clip>,
     pub cameras: Vec<SceneCamera>,
     pub lights: Vec<Light>,
+    /// Names of the scenes the file holds, and which of them is shown; `None`: all nodes are.
+    pub scene_names: Vec<String>,
+    pub shown_scene: Option<usize>,
+    /// What opening the file set aside.
+    pub memory_bytes: u64,
     /// Names of the glTF extensions the file uses.
     pub extensions: Vec<String>,
     /// What was repaired, left out or approximated, a sentence each.

@@ -1,5 +1,8 @@
 //! The program as a script sees it: exit codes, standard output, files.
 
+mod cache;
+mod corpus;
+mod defects;
 mod files;
 mod hidden;
 mod pictures;
@@ -7,30 +10,36 @@ mod reports;
 mod scenes;
 mod wrong_usage;
 
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::process::Output;
 
 use assert_cmd::Command;
+use octolume::disk_cache::FOLDER_VARIABLE;
 use serde_json::Value;
 
-/// A small grid, and the adapter that `OCTOLUME_TEST_ADAPTER` names, else the best.
-const GRID: [&str; 2] = ["--grid", "64"];
+/// The program, keeping no voxels from one run to the next: a test finds only what it made itself.
+fn program() -> Command {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("octolume"));
+    command.env(FOLDER_VARIABLE, "");
+    command
+}
 
 /// Runs the program without standard input.
 fn octolume<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("octolume"));
-    command.args(arguments);
-    command.output().expect("the program starts")
+    program().args(arguments).output().expect("the program starts")
+}
+
+/// A small grid, and the adapter that `OCTOLUME_TEST_ADAPTER` names, else the best.
+fn small_grid() -> Vec<String> {
+    let adapter = std::env::var("OCTOLUME_TEST_ADAPTER").ok();
+    let adapter = adapter.into_iter().flat_map(|adapter| ["--adapter".to_owned(), adapter]);
+    ["--grid", "64"].map(str::to_owned).into_iter().chain(adapter).collect()
 }
 
 /// On the test's adapter and a small grid.
 fn on_small_grid<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
-    let mut all: Vec<std::ffi::OsString> = arguments.into_iter().map(|text| text.as_ref().to_owned()).collect();
-    all.extend(GRID.map(Into::into));
-    if let Ok(adapter) = std::env::var("OCTOLUME_TEST_ADAPTER") {
-        all.extend(["--adapter".into(), adapter.into()]);
-    }
-    octolume(all)
+    let arguments = arguments.into_iter().map(|text| text.as_ref().to_owned());
+    octolume(arguments.chain(small_grid().into_iter().map(OsString::from)))
 }
 
 /// Runs what must succeed; standard output.

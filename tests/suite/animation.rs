@@ -91,7 +91,7 @@ fn key_times_must_increase() {
     assert_eq!(animated(&[0.0, 0.5, 2.0]).open().expect("opens").clips[0].duration_secs, 2.0);
     assert_eq!(
         animated(&[0.0, 1.0, 1.0]).refusal(),
-        "test.gltf: animation 0 \"walk\", channel 0: has key times that do not increase: 1 s, then 1 s at key 2"
+        "test.gltf: animation 0 \"walk\", translation of node 0 \"n\": has key times that do not increase: 1 s, then 1 s at key 2"
     );
     assert!(animated(&[0.0, 1.0, 0.5]).refusal().contains("1 s, then 0.5 s at key 2"));
     assert!(animated(&[0.0, f32::NAN, 0.5]).refusal().contains("a time at key 1 that is not finite"));

@@ -81,7 +81,7 @@ fn textures_factors_and_vertex_colours_multiply() {
     let texture = Texture { name: "halves".to_owned(), image: Arc::new(image), wrap: [Wrap::Repeat; 2], nearest: true };
     let material = Material {
         base_color: [0.5, 1.0, 1.0, 1.0],
-        base_color_texture: Some(TextureRef { texture: 0, tex_coord: 0 }),
+        base_color_texture: Some(TextureRef::new(0, 0)),
         ..Material::default()
     };
     let mut scene = Scene { textures: vec![texture], ..one_square(material) };
@@ -96,6 +96,26 @@ fn textures_factors_and_vertex_colours_multiply() {
         let vertex_color = 128.0 / 255.0;
         let expected = if place.x < 0.0 { DVec3::X * 0.5 * half } else { DVec3::Y * vertex_color * half };
         assert_color(seen.colors[index], expected, "texture");
+    }
+}
+
+#[test]
+fn unlit_materials_are_not_shaded_and_transformed_textures_are_read_elsewhere() {
+    let image =
+        image::RgbaImage::from_fn(8, 8, |x, _| image::Rgba(if x < 4 { [188, 0, 0, 255] } else { [0, 188, 0, 255] }));
+    let texture = Texture { name: "halves".to_owned(), image: Arc::new(image), wrap: [Wrap::Repeat; 2], nearest: true };
+    let half_a_texture_on = glam::Affine2::from_translation(glam::Vec2::new(0.5, 0.0));
+    let slot = TextureRef { uv_from_tex_coord: half_a_texture_on, ..TextureRef::new(0, 0) };
+    let material = Material { base_color_texture: Some(slot), unlit: true, ..Material::default() };
+    let scene = Scene { textures: vec![texture], ..one_square(material) };
+    let seen = drawn(gpu(), scene, &Look { shaded: true, ..look() });
+    let half = octolume::stages::view::palette::linear_from_gamma(188.0 / 255.0);
+    for (index, point) in pixels() {
+        let (place, _) = meets(point, 0.0);
+        if place.abs().max_element() < 0.9 && place.x.abs() > 0.15 {
+            let expected = if place.x < 0.0 { DVec3::Y * half } else { DVec3::X * half };
+            assert_color(seen.colors[index], expected, "unlit");
+        }
     }
 }
 

@@ -42,7 +42,7 @@ fn textures_are_averaged_in_linear_light() {
 #[test]
 fn second_texture_coordinates_and_wrapping_are_respected() {
     let mut object = square(4.0);
-    object.material.base_color_texture = Some(TextureRef { texture: 0, tex_coord: 1 });
+    object.material.base_color_texture = Some(TextureRef::new(0, 1));
     // Red left, green right; coordinates from 1 to 2: repeated, mirrored, clamped.
     let halves = texture(2, 1, |x, _| [if x == 0 { 255 } else { 0 }, 255 * x as u8, 0, 255]);
     object.primitive.tex_coords[1] = object.primitive.tex_coords[0].iter().map(|uv| *uv + Vec2::X).collect();

@@ -9,7 +9,7 @@ use egui::{Key, Modifiers, PointerButton, Rect, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use image::RgbaImage;
-use octolume::app::App;
+use octolume::app::{App, Start};
 use octolume::gpu::Gpu;
 use octolume::settings::{NodeNames, Settings};
 
@@ -56,7 +56,9 @@ impl Window {
 
     pub fn with(device: egui_wgpu::WgpuSetup, scene: &str, settings: Settings, names: NodeNames) -> Self {
         let scene = PathBuf::from(scene);
-        Self::build(device, move |context| App::new(context, &scene, settings, names).expect("a window"))
+        Self::build(device, move |context| {
+            App::new(context, &scene, Start { settings, names, ..Start::default() }).expect("a window")
+        })
     }
 
     pub fn build(device: egui_wgpu::WgpuSetup, app: impl FnOnce(&mut eframe::CreationContext<'static>) -> App) -> Self {

@@ -12,9 +12,6 @@ use gltf::json::{
 
 use super::source::Source;
 
-/// Elements that no buffer backs (zeros under a sparse overlay) may take this much memory.
-const MAX_UNBACKED_BYTES: usize = 256 << 20;
-
 /// The elements of one accessor; `lanes` components each.
 pub(super) struct Elements<'a> {
     bytes: Cow<'a, [u8]>,
@@ -25,15 +22,17 @@ pub(super) struct Elements<'a> {
     pub lanes: usize,
 }
 
-impl Source {
+impl Source<'_> {
     /// Errors are causes; the caller knows what the accessor is for.
     pub fn elements(&self, index: Index<Accessor>) -> Result<Elements<'_>, String> {
-        let root = self.document.as_json();
+        let root = &self.root;
         let accessor = root.accessors.get(index.value()).ok_or_else(|| format!("accessor {index} does not exist"))?;
-        self.read(root, accessor).map_err(|cause| format!("accessor {index} {cause}"))
+        self.elements_of(accessor).map_err(|cause| format!("accessor {index} {cause}"))
     }
 
-    fn read(&self, root: &Root, accessor: &Accessor) -> Result<Elements<'_>, String> {
+    /// [`Self::elements`], with causes that leave the accessor's number out.
+    pub fn elements_of(&self, accessor: &Accessor) -> Result<Elements<'_>, String> {
+        let root = &self.root;
         let (Checked::Valid(component), Checked::Valid(shape)) = (&accessor.component_type, &accessor.type_) else {
             return Err("has an unknown type".to_owned());
         };
@@ -43,9 +42,13 @@ impl Source {
             Some(view) => {
                 self.strided(root, view, to_usize(accessor.byte_offset.unwrap_or_default().0)?, count, size)?
             }
-            None => (Cow::Owned(zeros(count, size)?), size),
+            None => {
+                self.budget.spend_on(count, size)?;
+                (Cow::Owned(vec![0; count * size]), size)
+            }
         };
         if let Some(sparse) = &accessor.sparse {
+            self.budget.spend_on(count, size)?;
             let mut packed = pack(&bytes, stride, count, size);
             self.overlay(root, sparse, &mut packed, size)?;
             (bytes, stride) = (Cow::Owned(packed), size);
@@ -67,7 +70,7 @@ impl Source {
         if stride < size {
             return Err(format!("has a stride of {stride} bytes for elements of {size}"));
         }
-        let bytes = self.view_bytes(view)?;
+        let bytes = self.view_bytes(view).map_err(|cause| format!("lies in buffer view {view}, which {cause}"))?;
         let end = match count {
             0 => Some(offset),
             _ => (count - 1).checked_mul(stride).and_then(|last| last.checked_add(offset)?.checked_add(size)),
@@ -75,24 +78,6 @@ impl Source {
         let slice = end.and_then(|end| bytes.get(offset..end));
         slice.map(|slice| (Cow::Borrowed(slice), stride)).ok_or_else(|| {
             format!("reads past the end of its buffer view ({count} elements of {stride} bytes, {} there)", bytes.len())
-        })
-    }
-
-    /// All bytes of a buffer view.
-    pub fn view_bytes(&self, view: Index<View>) -> Result<&[u8], String> {
-        let declared = self.document.as_json().buffer_views.get(view.value());
-        let declared = declared.ok_or_else(|| format!("buffer view {view} does not exist"))?;
-        let buffer = self.buffers.get(declared.buffer.value());
-        let buffer = buffer.ok_or_else(|| format!("buffer {} does not exist", declared.buffer))?;
-        let buffer = buffer.as_ref().map_err(|cause| format!("needs data that is not there: {cause}"))?;
-        let start = to_usize(declared.byte_offset.unwrap_or_default().0)?;
-        let end = start.checked_add(to_usize(declared.byte_length.0)?);
-        end.and_then(|end| buffer.get(start..end)).ok_or_else(|| {
-            format!(
-                "lies in buffer view {view}, which ends outside buffer {} ({} bytes)",
-                declared.buffer,
-                buffer.len()
-            )
         })
     }
 
@@ -117,7 +102,17 @@ impl Source {
     }
 }
 
-impl Elements<'_> {
+impl<'a> Elements<'a> {
+    /// Elements without gaps, as many as there are bytes for.
+    pub fn packed(bytes: &'a [u8], component: ComponentType, lanes: usize, normalized: bool) -> Self {
+        let stride = component.size() * lanes;
+        Self { bytes: Cow::Borrowed(bytes), stride, component, normalized, count: bytes.len() / stride.max(1), lanes }
+    }
+
+    pub fn is_u32(&self) -> bool {
+        self.component == ComponentType::U32
+    }
+
     /// Chosen elements as floats; normalised integers become fractions. `N` must be `lanes`.
     pub fn floats<const N: usize>(&self, pick: impl IntoIterator<Item = usize>) -> Result<Vec<[f32; N]>, String> {
         self.expect_lanes(N)?;
@@ -140,6 +135,17 @@ impl Elements<'_> {
         let width = self.component.size();
         let start = element * self.stride;
         std::array::from_fn(|lane| decode(&self.bytes[start + lane * width..start + (lane + 1) * width]))
+    }
+
+    /// The smallest, or largest, value of every component, as stored: integers are not normalised.
+    pub fn reduce(&self, better: fn(f64, f64) -> f64) -> Vec<f64> {
+        let width = self.component.size();
+        let decode = float_decoder(self.component, false);
+        let lane = |element: usize, lane: usize| {
+            let start = element * self.stride + lane * width;
+            f64::from(decode(&self.bytes[start..start + width]))
+        };
+        (0..self.lanes).filter_map(|l| (0..self.count).map(|element| lane(element, l)).reduce(better)).collect()
     }
 
     fn expect_lanes(&self, lanes: usize) -> Result<(), String> {
@@ -178,13 +184,6 @@ fn unsigned(b: &[u8], component: ComponentType) -> Option<u32> {
 
 fn pack(bytes: &[u8], stride: usize, count: usize, size: usize) -> Vec<u8> {
     (0..count).flat_map(|element| &bytes[element * stride..element * stride + size]).copied().collect()
-}
-
-fn zeros(count: usize, size: usize) -> Result<Vec<u8>, String> {
-    match count.checked_mul(size) {
-        Some(bytes) if bytes <= MAX_UNBACKED_BYTES => Ok(vec![0; bytes]),
-        _ => Err(format!("declares {count} elements without a buffer view")),
-    }
 }
 
 fn to_usize(value: u64) -> Result<usize, String> {

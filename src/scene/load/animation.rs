@@ -1,5 +1,7 @@
 //! Clips: channels with strictly increasing key times and as many values as those call for.
 
+use std::collections::{BTreeSet, HashSet};
+
 use gltf::json::{
     self,
     animation::{Interpolation as FileInterpolation, Property as FileProperty},
@@ -7,11 +9,14 @@ use gltf::json::{
 };
 
 use super::{
-    error::{About, Defect, counted, label},
+    error::{About, Defect, label},
     nodes::unit_quaternion,
     source::Source,
 };
 use crate::scene::{Channel, Clip, Interpolation, LocalTransform, Node, Property};
+
+/// Quaternions of normalised bytes are this far from unit length.
+const UNIT_TOLERANCE: f64 = 0.01;
 
 /// `rank` leads from the file's node numbers to those of `nodes`.
 pub(super) fn load(
@@ -24,35 +29,60 @@ pub(super) fn load(
 ) -> Result<Clip, Defect> {
     let name = label("animation", index, animation.name.as_deref());
     let mut channels: Vec<Channel> = Vec::new();
-    let mut morphs = 0;
-    for (number, channel) in animation.channels.iter().enumerate() {
-        let object = || format!("{name}, channel {number}");
-        let property = match channel.target.path {
+    let mut taken = HashSet::new();
+    let mut morphed = BTreeSet::new();
+    for channel in &animation.channels {
+        let target = &channel.target;
+        let Some(&node) = rank.get(target.node.value()) else {
+            return Err(Defect::new(name, "animates a node that does not exist"));
+        };
+        let object =
+            |what: &str| format!("{name}, {what} of {}", label("node", target.node.value(), Some(&nodes[node].name)));
+        let property = match target.path {
             Checked::Valid(FileProperty::Translation) => Property::Translation,
             Checked::Valid(FileProperty::Rotation) => Property::Rotation,
             Checked::Valid(FileProperty::Scale) => Property::Scale,
             Checked::Valid(FileProperty::MorphTargetWeights) => {
-                morphs += 1;
+                morphed.insert(node);
                 continue;
             }
-            Checked::Invalid => return Err(Defect::new(object(), "animates an unknown property")),
+            Checked::Invalid => {
+                warnings.push(format!("{}, which glTF does not know; it is left out", object("a property")));
+                continue;
+            }
         };
-        let node = rank.get(channel.target.node.value()).copied();
-        let node = node.ok_or_else(|| Defect::new(object(), "animates a node that does not exist"))?;
+        let object = || object(property.name());
         if let LocalTransform::Matrix(_) = nodes[node].local {
             warnings.push(format!("{}: its node has a matrix, which cannot be animated; it is left out", object()));
             continue;
         }
-        if channels.iter().any(|other| other.node == node && other.property == property) {
+        if !taken.insert((node, property)) {
             return Err(Defect::new(object(), "animates what another channel of the clip animates"));
         }
         let sampler = animation.samplers.get(channel.sampler.value());
         let sampler = sampler.ok_or_else(|| Defect::new(object(), "names a sampler that does not exist"))?;
-        channels.push(read_channel(source, sampler, node, property).about(object)?);
+        let times = &source.root.accessors[sampler.input.value()];
+        if times.buffer_view.is_none() && times.sparse.is_none() && times.count.0 > 1 {
+            warnings.push(format!("{}: its key times have no data; it is left out", object()));
+            continue;
+        }
+        let mut channel = read_channel(source, sampler, node, property).about(object)?;
+        if property == Property::Rotation {
+            let off = make_unit(&mut channel).about(object)?;
+            if off > UNIT_TOLERANCE {
+                warnings.push(format!(
+                    "{}: its rotations are not unit quaternions (off by {off:.3}); they are normalised",
+                    object()
+                ));
+            }
+        }
+        channel.check().about(object)?;
+        channels.push(channel);
     }
-    if morphs > 0 {
-        let left_out = counted(morphs, "channel", "channels");
-        warnings.push(format!("{name}: {left_out} left out: morph targets are not animated"));
+    for node in morphed {
+        let node = &nodes[node].name;
+        warnings
+            .push(format!("{name}: the morph weights of \"{node}\" move, which is not shown; its resting shape moves"));
     }
     Ok(Clip {
         name: animation.name.clone().unwrap_or_else(|| format!("animation {index}")),
@@ -77,18 +107,30 @@ fn read_channel(
     let times: Vec<[f32; 1]> = input.floats(0..input.count)?;
     let times_secs: Vec<f64> = times.into_iter().map(|[time]| f64::from(time)).collect();
     let output = source.elements(sampler.output)?;
-    let mut values: Vec<f64> = match property {
+    let values: Vec<f64> = match property {
         Property::Rotation => output.floats::<4>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
         _ => output.floats::<3>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
     };
-    if property == Property::Rotation && interpolation != Interpolation::CubicSpline {
-        for (key, rotation) in values.chunks_exact_mut(4).enumerate() {
-            let unit = unit_quaternion([rotation[0], rotation[1], rotation[2], rotation[3]]);
-            let unit = unit.ok_or_else(|| format!("has a rotation at key {key} that is zero or not finite"))?;
+    Ok(Channel { node, property, interpolation, times_secs, values })
+}
+
+/// Normalises the rotations at the keys, where nothing normalises after interpolation; returns by
+/// how much the length of one is off.
+fn make_unit(channel: &mut Channel) -> Result<f64, String> {
+    let mut off: f64 = 0.0;
+    let is_spline = channel.interpolation == Interpolation::CubicSpline;
+    for (row, rotation) in channel.values.chunks_exact_mut(4).enumerate() {
+        // Of the three rows of a spline's key, the first and last are tangents.
+        if is_spline && row % 3 != 1 {
+            continue;
+        }
+        let value = [rotation[0], rotation[1], rotation[2], rotation[3]];
+        off = off.max((value.iter().map(|lane| lane * lane).sum::<f64>().sqrt() - 1.0).abs());
+        if !is_spline {
+            let unit = unit_quaternion(value)
+                .ok_or_else(|| format!("has a rotation at key {row} that is zero or not finite"))?;
             rotation.copy_from_slice(&unit.to_array());
         }
     }
-    let channel = Channel { node, property, interpolation, times_secs, values };
-    channel.check()?;
-    Ok(channel)
+    Ok(off)
 }

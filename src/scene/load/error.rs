@@ -5,8 +5,8 @@ use crate::progress::Cancelled;
 /// Why a file could not be opened; its text names file, object and cause.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    #[error("{file}: cannot be read: {source}")]
-    Unreadable { file: String, source: std::io::Error },
+    #[error("{file}: {cause}")]
+    Unreadable { file: String, cause: String },
     #[error("{file}: {object}: {cause}")]
     Invalid { file: String, object: String, cause: String },
     #[error("{file}: opening was cancelled")]
@@ -15,7 +15,7 @@ pub enum LoadError {
 
 /// A [`LoadError`] before the file's name is known.
 #[derive(Debug)]
-pub(super) enum Defect {
+pub(in crate::scene::load) enum Defect {
     Invalid { object: String, cause: String },
     Cancelled,
 }
@@ -28,7 +28,7 @@ impl Defect {
     pub fn in_file(self, file: &str) -> LoadError {
         let file = file.to_owned();
         match self {
-            Self::Invalid { object, cause } => LoadError::Invalid { file, object, cause },
+            Self::Invalid { object, cause } => LoadError::Invalid { file, object, cause: one_line(&cause) },
             Self::Cancelled => LoadError::Cancelled { file },
         }
     }
@@ -51,8 +51,13 @@ impl<T> About<T> for Result<T, String> {
     }
 }
 
+/// Texts of other libraries may have several lines; a sentence has one.
+pub(in crate::scene::load) fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// How messages name an object: `mesh 3 "wheel"`.
-pub(super) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
+pub(in crate::scene::load) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
     match name {
         Some(name) if !name.is_empty() => format!("{kind} {index} \"{name}\""),
         _ => format!("{kind} {index}"),
@@ -60,6 +65,6 @@ pub(super) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
 }
 
 /// `1 vertex`, `3 vertices`.
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+pub(in crate::scene::load) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }

@@ -1,169 +1,100 @@
-//! Materials, textures and their images. Images are decoded in parallel; one that cannot be
-//! decoded costs its textures, which is said in a warning, not the file.
+//! Materials: metallic-roughness as it is, specular-glossiness converted.
 
-use std::{io::Cursor, path::Path, sync::Arc};
-
-use gltf::{
-    json,
-    material::AlphaMode as FileAlphaMode,
-    texture::{MagFilter, WrappingMode},
+use gltf::json::{
+    self,
+    material::{AlphaMode as FileAlphaMode, EmissiveFactor},
+    validation::Checked,
 };
-use image::{ImageReader, RgbaImage};
-use rayon::prelude::*;
 
 use super::{
     error::{Defect, label},
-    source::{Source, read_uri},
+    source::Source,
+    spec_gloss,
+    texture::Textures,
 };
-use crate::{
-    progress::Progress,
-    scene::{AlphaMode, Material, Texture, TextureRef, Wrap},
-};
+use crate::scene::{AlphaMode, Material};
 
-/// The textures that could be read, and for each of the file where it went.
-pub(super) struct Textures {
-    pub list: Vec<Texture>,
-    places: Vec<Option<usize>>,
+pub(super) fn load(
+    source: &Source,
+    textures: &mut Textures,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Material>, Defect> {
+    let materials = source.root.materials.iter().enumerate();
+    materials.map(|(index, material)| load_one(source, index, material, textures, warnings)).collect()
 }
 
-impl Textures {
-    pub fn load(
-        source: &Source,
-        base_dir: Option<&Path>,
-        progress: &Progress,
-        warnings: &mut Vec<String>,
-    ) -> Result<Self, Defect> {
-        let root = source.document.as_json();
-        let images = decode_images(source, base_dir, progress)?;
-        let mut textures = Self { list: Vec::new(), places: Vec::new() };
-        for (index, image) in images.iter().enumerate() {
-            if let Some(Err(cause)) = image {
-                let object = label("image", index, root.images[index].name.as_deref());
-                warnings.push(format!("{object} {cause}; materials go without it"));
-            }
-        }
-        for texture in source.document.textures() {
-            let image = texture.source().and_then(|image| images.get(image.index())?.as_ref()?.as_ref().ok());
-            textures.places.push(image.map(|_| textures.list.len()));
-            textures.list.extend(image.map(|image| Texture {
-                name: texture_name(root, &texture),
-                image: image.clone(),
-                wrap: [wrap(texture.sampler().wrap_s()), wrap(texture.sampler().wrap_t())],
-                nearest: texture.sampler().mag_filter() == Some(MagFilter::Nearest),
-            }));
-        }
-        Ok(textures)
-    }
-
-    /// `None` where the slot is empty or must do without its texture.
-    fn slot(&self, object: &str, slot: Option<(usize, u32)>, warnings: &mut Vec<String>) -> Option<TextureRef> {
-        let (texture, tex_coord) = slot?;
-        if tex_coord > 1 {
-            warnings
-                .push(format!("{object}: a texture reads TEXCOORD_{tex_coord}, and 0 and 1 are read; it is left out"));
-            return None;
-        }
-        let texture = self.places.get(texture).copied().flatten()?;
-        Some(TextureRef { texture, tex_coord: tex_coord as usize })
-    }
-}
-
-fn texture_name(root: &json::Root, texture: &gltf::Texture) -> String {
-    let image = texture.source().map(|image| &root.images[image.index()]);
-    let uri = image.and_then(|image| image.uri.as_deref()).filter(|uri| !uri.starts_with("data:"));
-    let name = texture.name().or(image.and_then(|image| image.name.as_deref())).or(uri);
-    name.map_or_else(|| format!("texture {}", texture.index()), str::to_owned)
-}
-
-type Decoded = Option<Result<Arc<RgbaImage>, String>>;
-
-/// By image of the file; `None` for those no texture shows.
-fn decode_images(source: &Source, base_dir: Option<&Path>, progress: &Progress) -> Result<Vec<Decoded>, Defect> {
-    let root = source.document.as_json();
-    let mut used = vec![false; root.images.len()];
-    for texture in &root.textures {
-        if let Some(used) = used.get_mut(texture.source.value()) {
-            *used = true;
-        }
-    }
-    progress.add_total(used.iter().filter(|&&used| used).count() as u64);
-    let decoded: Vec<Result<Decoded, Defect>> = (root.images.par_iter().zip(used))
-        .map(|(image, used)| {
-            let decoded = used.then(|| decode(source, image, base_dir).map(Arc::new));
-            progress.advance(u64::from(used))?;
-            Ok(decoded)
-        })
-        .collect();
-    decoded.into_iter().collect()
-}
-
-fn decode(source: &Source, image: &json::Image, base_dir: Option<&Path>) -> Result<RgbaImage, String> {
-    let file_bytes;
-    let bytes = match (&image.uri, image.buffer_view) {
-        (Some(uri), _) => {
-            file_bytes = read_uri(uri, base_dir)?;
-            &file_bytes
-        }
-        (None, Some(view)) => source.view_bytes(view)?,
-        (None, None) => return Err("has no data".to_owned()),
-    };
-    // The content decides: declared types are wrong in files that everything else opens.
-    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|error| error.to_string())?;
-    let image = reader.decode().map_err(|error| format!("cannot be decoded: {error}"))?;
-    Ok(image.into_rgba8())
-}
-
-fn wrap(mode: WrappingMode) -> Wrap {
-    match mode {
-        WrappingMode::Repeat => Wrap::Repeat,
-        WrappingMode::MirroredRepeat => Wrap::MirroredRepeat,
-        WrappingMode::ClampToEdge => Wrap::ClampToEdge,
-    }
-}
-
-pub(super) fn load(source: &Source, textures: &Textures, warnings: &mut Vec<String>) -> Result<Vec<Material>, Defect> {
-    let materials = source.document.materials().enumerate();
-    materials.map(|(index, material)| load_material(index, &material, textures, warnings)).collect()
-}
-
-fn load_material(
+fn load_one(
+    source: &Source,
     index: usize,
-    material: &gltf::Material,
-    textures: &Textures,
+    material: &json::Material,
+    textures: &mut Textures,
     warnings: &mut Vec<String>,
 ) -> Result<Material, Defect> {
-    let object = label("material", index, material.name());
-    let info = |info: Option<gltf::texture::Info>| info.map(|info| (info.texture().index(), info.tex_coord()));
-    let mut slot = |slot| textures.slot(&object, slot, warnings);
-    let pbr = material.pbr_metallic_roughness();
-    let normal = material.normal_texture();
-    let emissive_slot = info(material.emissive_texture());
-    let emissive_texture = slot(emissive_slot);
+    let object = label("material", index, material.name.as_deref());
+    let extensions = material.extensions.as_ref();
+    let pbr = &material.pbr_metallic_roughness;
+    let emissive_texture = textures.slot(&object, material.emissive_texture.as_ref(), warnings);
     // An emission whose mask is lost would light up the whole surface.
-    let emission_lost = emissive_slot.is_some() && emissive_texture.is_none();
-    let strength = if emission_lost { 0.0 } else { material.emissive_strength().unwrap_or(1.0) };
-    let loaded = Material {
-        name: material.name().map_or_else(|| format!("material {index}"), str::to_owned),
-        base_color: pbr.base_color_factor(),
-        base_color_texture: slot(info(pbr.base_color_texture())),
-        metallic: pbr.metallic_factor(),
-        roughness: pbr.roughness_factor(),
-        metallic_roughness_texture: slot(info(pbr.metallic_roughness_texture())),
-        normal_scale: normal.as_ref().map_or(1.0, |normal| normal.scale()),
-        normal_texture: slot(normal.map(|normal| (normal.texture().index(), normal.tex_coord()))),
-        emissive: material.emissive_factor().map(|channel| channel * strength),
+    let emission_lost = material.emissive_texture.is_some() && emissive_texture.is_none();
+    let declared_strength =
+        extensions.and_then(|e| e.emissive_strength.as_ref()).map_or(1.0, |e| e.emissive_strength.0);
+    let strength = if emission_lost { 0.0 } else { declared_strength };
+    let normal = material.normal_texture.as_ref();
+    let EmissiveFactor(emissive) = material.emissive_factor;
+    let mut loaded = Material {
+        name: material.name.clone().unwrap_or_else(|| format!("material {index}")),
+        base_color: pbr.base_color_factor.0,
+        base_color_texture: textures.slot(&object, pbr.base_color_texture.as_ref(), warnings),
+        metallic: pbr.metallic_factor.0,
+        roughness: pbr.roughness_factor.0,
+        metallic_roughness_texture: textures.slot(&object, pbr.metallic_roughness_texture.as_ref(), warnings),
+        normal_scale: normal.map_or(1.0, |normal| normal.scale),
+        normal_texture: normal.and_then(|normal| {
+            let transform = normal_transform(normal, &object, warnings);
+            textures.place(&object, normal.index.value(), normal.tex_coord, transform.as_ref(), warnings)
+        }),
+        emissive: emissive.map(|channel| channel * strength),
         emissive_texture,
-        alpha_mode: match material.alpha_mode() {
-            FileAlphaMode::Opaque => AlphaMode::Opaque,
-            FileAlphaMode::Mask => AlphaMode::Mask { cutoff: material.alpha_cutoff().unwrap_or(0.5) },
-            FileAlphaMode::Blend => AlphaMode::Blend,
-        },
-        double_sided: material.double_sided(),
+        alpha_mode: alpha_mode(material, &object, warnings),
+        double_sided: material.double_sided,
+        unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
     };
-    let factors = [loaded.metallic, loaded.roughness, loaded.normal_scale];
-    let mut numbers = factors.iter().chain(&loaded.base_color).chain(&loaded.emissive);
+    if let Some(declared) = extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
+        spec_gloss::convert(source, &object, declared, textures, &mut loaded, warnings)
+            .map_err(|cause| Defect::new(&object, cause))?;
+    }
+    check(loaded, object)
+}
+
+fn alpha_mode(material: &json::Material, object: &str, warnings: &mut Vec<String>) -> AlphaMode {
+    match material.alpha_mode {
+        Checked::Valid(FileAlphaMode::Opaque) => AlphaMode::Opaque,
+        Checked::Valid(FileAlphaMode::Mask) => AlphaMode::Mask { cutoff: material.alpha_cutoff.unwrap_or_default().0 },
+        Checked::Valid(FileAlphaMode::Blend) => AlphaMode::Blend,
+        Checked::Invalid => {
+            warnings.push(format!("{object}: its alpha mode is one that glTF does not know; it is shown opaque"));
+            AlphaMode::Opaque
+        }
+    }
+}
+
+/// The typed document keeps this one extension of a normal texture untyped.
+fn normal_transform(
+    normal: &json::material::NormalTexture,
+    object: &str,
+    warnings: &mut Vec<String>,
+) -> Option<json::extensions::texture::TextureTransform> {
+    let declared = normal.extensions.as_ref()?.others.get("KHR_texture_transform")?;
+    serde::Deserialize::deserialize(declared)
+        .map_err(|error| warnings.push(format!("{object}: the transform of its normal texture is ignored: {error}")))
+        .ok()
+}
+
+fn check(material: Material, object: String) -> Result<Material, Defect> {
+    let factors = [material.metallic, material.roughness, material.normal_scale];
+    let mut numbers = factors.iter().chain(&material.base_color).chain(&material.emissive);
     if numbers.all(|number| number.is_finite()) {
-        Ok(loaded)
+        Ok(material)
     } else {
         Err(Defect::new(object, "has a factor that is not finite"))
     }

@@ -2,42 +2,71 @@
 //!
 //! In: a path or bytes. Out: a [`Scene`] with everything in our words, or one sentence that names
 //! file, object and cause. What can be read in part is read, and a warning says what was left out
-//! or repaired. Only this folder knows the format: `source` and `accessor` turn the file into
-//! checked numbers, the others turn those into the parts of a scene.
+//! or repaired. Only this folder knows the format.
+//!
+//! ```text
+//! bytes ─► container ─► json (checked, repaired) ─► source (uri, meshopt) ─► accessor ─┬─► attributes, draco ─► mesh, skin
+//!                                                                                      ├─► animation, instances
+//!                                                   image ─► texture, spec_gloss ──────┴─► material, nodes, cameras, lights
+//! ```
 
 mod accessor;
+mod accessor_check;
 mod animation;
+mod attributes;
+
+mod budget;
+mod cameras;
+mod container;
+mod draco;
 mod error;
+mod image;
+mod instances;
+mod json;
+mod lights;
 mod material;
 mod mesh;
+mod meshopt;
 mod nodes;
+mod options;
+mod shapes;
 mod skin;
 mod source;
+mod spec_gloss;
+mod texture;
+mod uri;
+mod usage_check;
 mod weights;
 
 use std::path::Path;
 
-use rayon::prelude::*;
+use gltf::json::Root;
 
 pub use error::LoadError;
+pub use options::{OpenOptions, SceneChoice};
 
 use self::{
-    error::{Defect, counted},
-    material::Textures,
+    budget::Budget,
+    error::{Defect, one_line},
     nodes::Hierarchy,
-    source::{SUPPORTED_EXTENSIONS, Source},
+    shapes::Shapes,
+    source::Source,
+    texture::Textures,
 };
-use super::{Clip, Mesh, Node, Scene};
+use super::{Clip, Node, Scene};
 use crate::progress::Progress;
 
 /// Opens a file. `progress` counts its images, meshes and clips, and can cancel.
 pub fn open(path: &Path, progress: &Progress) -> Result<Scene, LoadError> {
+    open_with(path, &OpenOptions::default(), progress)
+}
+
+/// [`open`], with choices.
+pub fn open_with(path: &Path, options: &OpenOptions, progress: &Progress) -> Result<Scene, LoadError> {
     let file = path.display().to_string();
-    let bytes = match std::fs::read(path) {
-        Ok(bytes) => bytes,
-        Err(source) => return Err(LoadError::Unreadable { file, source }),
-    };
-    let mut scene = read(&bytes, path.parent(), progress).map_err(|defect| defect.in_file(&file))?;
+    let budget = Budget::new(options.memory_budget_bytes);
+    let bytes = uri::read_file(path, &budget).map_err(|cause| LoadError::Unreadable { file: file.clone(), cause })?;
+    let mut scene = read(&bytes, path.parent(), options, &budget, progress).map_err(|defect| defect.in_file(&file))?;
     scene.name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     scene.source = Some(path.to_owned());
     Ok(scene)
@@ -46,26 +75,49 @@ pub fn open(path: &Path, progress: &Progress) -> Result<Scene, LoadError> {
 /// Opens a file already in memory; `name` stands in for its path in messages. Without
 /// `base_dir`, nothing beside it can be read.
 pub fn open_bytes(name: &str, bytes: &[u8], base_dir: Option<&Path>, progress: &Progress) -> Result<Scene, LoadError> {
-    let scene = read(bytes, base_dir, progress).map_err(|defect| defect.in_file(name))?;
+    open_bytes_with(name, bytes, base_dir, &OpenOptions::default(), progress)
+}
+
+/// [`open_bytes`], with choices.
+pub fn open_bytes_with(
+    name: &str,
+    bytes: &[u8],
+    base_dir: Option<&Path>,
+    options: &OpenOptions,
+    progress: &Progress,
+) -> Result<Scene, LoadError> {
+    let budget = Budget::new(options.memory_budget_bytes);
+    let scene = read(bytes, base_dir, options, &budget, progress).map_err(|defect| defect.in_file(name))?;
     Ok(Scene { name: name.to_owned(), ..scene })
 }
 
-fn read(bytes: &[u8], base_dir: Option<&Path>, progress: &Progress) -> Result<Scene, Defect> {
-    let source = source::parse(bytes, base_dir)?;
-    let root = source.document.as_json();
+fn read(
+    bytes: &[u8],
+    base_dir: Option<&Path>,
+    options: &OpenOptions,
+    budget: &Budget,
+    progress: &Progress,
+) -> Result<Scene, Defect> {
     let mut warnings = Vec::new();
-    warn_of_extensions(&root.extensions_used, &mut warnings);
-    let (cameras, camera_places) = nodes::cameras(root, &mut warnings);
-    let lights = nodes::lights(root)?;
+    let source = Source::read(bytes, base_dir, budget, progress, &mut warnings)?;
+    let root = &source.root;
+    accessor_check::check(&source, progress, &mut warnings)?;
+    usage_check::check(&source, &mut warnings);
+    let shown_scene = shown_scene(root, options, &mut warnings)?;
+    let (cameras, camera_places) = cameras::load(root, &mut warnings);
+    let (lights, light_places) = lights::load(root, &mut warnings);
     let hierarchy = Hierarchy::new(root)?;
-    let mut nodes = hierarchy.nodes(root, &camera_places, &mut warnings)?;
-    nodes::check_lights(&nodes, lights.len())?;
-    let mut meshes = read_meshes(&source, progress, &mut warnings)?;
+    let shapes = Shapes::load(&source, progress, &mut warnings)?;
+    let places = [&shapes.by_node[..], &camera_places, &light_places];
+    let mut nodes = hierarchy.nodes(root, shown_scene, places, &mut warnings)?;
+    let mut meshes = shapes.meshes;
     let skins = skin::load_all(&source, &hierarchy.rank, &mut warnings)?;
+    skin::check_roots(&skins, &nodes, &mut warnings);
     skin::bind(&mut nodes, &mut meshes, &skins, &mut warnings)?;
     let clips = read_clips(&source, &hierarchy, &nodes, progress, &mut warnings)?;
-    let textures = Textures::load(&source, base_dir, progress, &mut warnings)?;
-    let materials = material::load(&source, &textures, &mut warnings)?;
+    instances::expand(&source, &hierarchy.rank, &mut nodes, &mut warnings)?;
+    let mut textures = Textures::load(&source, progress, &mut warnings)?;
+    let materials = material::load(&source, &mut textures, &mut warnings)?;
     Ok(Scene {
         name: String::new(),
         source: None,
@@ -77,44 +129,32 @@ fn read(bytes: &[u8], base_dir: Option<&Path>, progress: &Progress) -> Result<Sc
         clips,
         cameras,
         lights,
+        scene_names: scene_names(root),
+        shown_scene,
+        memory_bytes: budget.spent_bytes(),
         extensions: root.extensions_used.clone(),
-        warnings,
+        warnings: warnings.iter().map(|warning| one_line(warning)).collect(),
     })
 }
 
-fn warn_of_extensions(used: &[String], warnings: &mut Vec<String>) {
-    let unknown: Vec<&str> =
-        used.iter().map(String::as_str).filter(|name| !SUPPORTED_EXTENSIONS.contains(name)).collect();
-    if !unknown.is_empty() {
-        warnings.push(format!("extensions that are not read: {}", unknown.join(", ")));
-    }
+fn scene_names(root: &Root) -> Vec<String> {
+    let scenes = root.scenes.iter().enumerate();
+    scenes.map(|(index, scene)| scene.name.clone().unwrap_or_else(|| format!("scene {index}"))).collect()
 }
 
-fn read_meshes(source: &Source, progress: &Progress, warnings: &mut Vec<String>) -> Result<Vec<Mesh>, Defect> {
-    let declared = &source.document.as_json().meshes;
-    progress.add_total(declared.len() as u64);
-    let results: Vec<Result<mesh::Loaded, Defect>> = declared
-        .par_iter()
-        .enumerate()
-        .map(|(index, declared)| {
-            let loaded = mesh::load(source, index, declared)?;
-            progress.advance(1)?;
-            Ok(loaded)
-        })
-        .collect();
-    let mut meshes = Vec::with_capacity(results.len());
-    let mut without_surface = 0;
-    for loaded in results {
-        let loaded = loaded?;
-        meshes.push(loaded.mesh);
-        without_surface += loaded.without_surface;
-        warnings.extend(loaded.warnings);
+fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<String>) -> Result<Option<usize>, Defect> {
+    let names = scene_names(root);
+    if let Some(wanted) = &options.scene {
+        let known = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+        let cause =
+            || format!("there is no {wanted}; the file holds {}", if known.is_empty() { "none" } else { &known });
+        return wanted.among(&names).map(Some).ok_or_else(|| Defect::new("scenes", cause()));
     }
-    if without_surface > 0 {
-        let left_out = counted(without_surface, "primitive", "primitives");
-        warnings.push(format!("{left_out} left out: points and lines have no surface"));
+    let shown = root.scene.map(|scene| scene.value()).or((!names.is_empty()).then_some(0));
+    if let Some(shown) = shown.filter(|_| names.len() > 1) {
+        warnings.push(format!("the file holds {} scenes; \"{}\" is shown", names.len(), names[shown]));
     }
-    Ok(meshes)
+    Ok(shown)
 }
 
 fn read_clips(
@@ -124,7 +164,7 @@ fn read_clips(
     progress: &Progress,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Clip>, Defect> {
-    let animations = &source.document.as_json().animations;
+    let animations = &source.root.animations;
     progress.add_total(animations.len() as u64);
     let clips = animations.iter().enumerate().map(|(index, animation)| {
         let clip = animation::load(source, index, animation, &hierarchy.rank, nodes, warnings)?;

@@ -1,10 +1,10 @@
-//! The node hierarchy, reordered so that parents come before children; cameras and lights.
+//! The node hierarchy, reordered so that parents come before children.
 
 use glam::{DMat4, DQuat, DVec3, DVec4};
-use gltf::json::{self, Root, camera::Type as CameraType, validation::Checked};
+use gltf::json::{self, Root};
 
 use super::error::{Defect, counted, label};
-use crate::scene::{Light, LightKind, LocalTransform, Node, Projection, SceneCamera, Trs};
+use crate::scene::{LocalTransform, Node, Trs};
 
 /// Where each node of the file ends up.
 pub(super) struct Hierarchy {
@@ -43,18 +43,26 @@ impl Hierarchy {
         }
     }
 
-    /// All nodes; those outside the drawn scene keep their transform (joints may be among them) but show nothing.
+    /// All nodes; those outside the shown scene keep their transform (joints may be among them) but show nothing.
+    /// `meshes` are by the file's nodes, the others by the file's cameras and lights.
     pub fn nodes(
         &self,
         root: &Root,
-        cameras: &[Option<usize>],
+        shown_scene: Option<usize>,
+        [meshes, cameras, lights]: [&[Option<usize>]; 3],
         warnings: &mut Vec<String>,
     ) -> Result<Vec<Node>, Defect> {
-        let drawn = self.drawn(root);
+        let drawn = self.drawn(root, shown_scene);
+        for (index, scene) in root.scenes.iter().enumerate() {
+            for node in scene.nodes.iter().map(|node| node.value()).filter(|&node| self.parents[node].is_some()) {
+                let [scene, node] = [label("scene", index, scene.name.as_deref()), label("node", node, None)];
+                warnings.push(format!("{scene}: {node} is not a root of its tree, and is drawn with what is below it"));
+            }
+        }
         let hidden = self.order.iter().filter(|&&node| !drawn[node] && root.nodes[node].mesh.is_some()).count();
         if hidden > 0 {
-            let left_out = counted(hidden, "node with a mesh", "nodes with a mesh");
-            warnings.push(format!("{left_out} left out: only the default scene is drawn"));
+            let left_out = counted(hidden, "node with a mesh is", "nodes with a mesh are");
+            warnings.push(format!("{left_out} not in the scene that is shown"));
         }
         self.order
             .iter()
@@ -63,23 +71,26 @@ impl Hierarchy {
                 let object = || label("node", index, node.name.as_deref());
                 let local = local_transform(node, &object, warnings)?;
                 let shown = drawn[index];
+                let joints = node.skin.iter().flat_map(|skin| &root.skins[skin.value()].joints);
+                if shown && joints.clone().any(|joint| !drawn[joint.value()]) {
+                    warnings.push(format!("{}: joints of its skin are not in the scene that is shown", object()));
+                }
                 Ok(Node {
                     name: node.name.clone().unwrap_or_else(|| format!("node {index}")),
                     parent: self.parents[index].map(|parent| self.rank[parent]),
                     local,
-                    mesh: node.mesh.filter(|_| shown).map(|mesh| mesh.value()),
+                    mesh: meshes[index].filter(|_| shown),
                     skin: node.skin.filter(|_| shown && node.mesh.is_some()).map(|skin| skin.value()),
                     camera: node.camera.filter(|_| shown).and_then(|camera| cameras[camera.value()]),
-                    light: light_of(node).filter(|_| shown),
+                    light: light_of(node).filter(|_| shown).and_then(|light| lights.get(light).copied().flatten()),
                 })
             })
             .collect()
     }
 
-    /// By file order: is the node part of the default scene (else the first, else everything)?
-    fn drawn(&self, root: &Root) -> Vec<bool> {
-        let scene = root.scene.map_or(0, |scene| scene.value());
-        let Some(scene) = root.scenes.get(scene) else { return vec![true; root.nodes.len()] };
+    /// By file order: is the node part of the scene? Without scenes, everything is shown.
+    fn drawn(&self, root: &Root, scene: Option<usize>) -> Vec<bool> {
+        let Some(scene) = scene.and_then(|scene| root.scenes.get(scene)) else { return vec![true; root.nodes.len()] };
         let mut drawn = vec![false; root.nodes.len()];
         for node in &scene.nodes {
             drawn[node.value()] = true;
@@ -134,87 +145,6 @@ pub(super) fn affine(columns: &[f64; 16], object: &dyn Fn() -> String, warnings:
     matrix
 }
 
-/// The cameras that make sense, and for each of the file where it went.
-pub(super) fn cameras(root: &Root, warnings: &mut Vec<String>) -> (Vec<SceneCamera>, Vec<Option<usize>>) {
-    let mut cameras = Vec::new();
-    let places = root.cameras.iter().enumerate().map(|(index, camera)| match projection(camera) {
-        Some(projection) => {
-            let name = camera.name.clone().unwrap_or_else(|| format!("camera {index}"));
-            cameras.push(SceneCamera { name, projection });
-            Some(cameras.len() - 1)
-        }
-        None => {
-            let object = label("camera", index, camera.name.as_deref());
-            warnings.push(format!("{object}: its projection makes no sense; it is left out"));
-            None
-        }
-    });
-    let places = places.collect();
-    (cameras, places)
-}
-
-fn projection(camera: &json::Camera) -> Option<Projection> {
-    let positive = |value: f32| (value.is_finite() && value > 0.0).then_some(f64::from(value));
-    match camera.type_ {
-        Checked::Valid(CameraType::Perspective) => {
-            let lens = camera.perspective.as_ref()?;
-            let far = match lens.zfar {
-                Some(far) => Some(positive(far).filter(|_| far > lens.znear)?),
-                None => None,
-            };
-            let fov_y_radians = positive(lens.yfov).filter(|&fov| fov < std::f64::consts::PI)?;
-            Some(Projection::Perspective { fov_y_radians, near: positive(lens.znear)?, far })
-        }
-        Checked::Valid(CameraType::Orthographic) => {
-            let lens = camera.orthographic.as_ref()?;
-            let near = Some(f64::from(lens.znear)).filter(|&near| near >= 0.0)?;
-            let far = positive(lens.zfar).filter(|&far| far > near)?;
-            // Negative magnifications are discouraged, not forbidden; they mirror the image.
-            let (half_width, half_height) = (positive(lens.xmag.abs())?, positive(lens.ymag.abs())?);
-            Some(Projection::Orthographic { half_width, half_height, near, far })
-        }
-        Checked::Invalid => None,
-    }
-}
-
 fn light_of(node: &json::Node) -> Option<usize> {
     Some(node.extensions.as_ref()?.khr_lights_punctual.as_ref()?.light.value())
-}
-
-/// KHR_lights_punctual.
-pub(super) fn lights(root: &Root) -> Result<Vec<Light>, Defect> {
-    use json::extensions::scene::khr_lights_punctual::Type;
-    let declared = root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
-    let mut lights = Vec::new();
-    for (index, light) in declared.iter().flat_map(|lights| &lights.lights).enumerate() {
-        let object = || label("light", index, light.name.as_deref());
-        let range = light.range;
-        let kind = match (&light.type_, &light.spot) {
-            (Checked::Valid(Type::Directional), _) => LightKind::Directional,
-            (Checked::Valid(Type::Point), _) => LightKind::Point { range },
-            (Checked::Valid(Type::Spot), Some(spot)) => LightKind::Spot {
-                range,
-                inner_cone_radians: spot.inner_cone_angle,
-                outer_cone_radians: spot.outer_cone_angle,
-            },
-            (Checked::Valid(Type::Spot), None) => return Err(Defect::new(object(), "is a spot light without a cone")),
-            (Checked::Invalid, _) => return Err(Defect::new(object(), "is of an unknown type")),
-        };
-        if !light.intensity.is_finite() || !light.color.iter().all(|channel| channel.is_finite()) {
-            return Err(Defect::new(object(), "has a colour or intensity that is not finite"));
-        }
-        let name = light.name.clone().unwrap_or_else(|| format!("light {index}"));
-        lights.push(Light { name, kind, color: light.color, intensity: light.intensity });
-    }
-    Ok(lights)
-}
-
-/// Lights are checked by index here: the validator does not always see the extension.
-pub(super) fn check_lights(nodes: &[Node], lights: usize) -> Result<(), Defect> {
-    match nodes.iter().enumerate().find(|(_, node)| node.light.is_some_and(|light| light >= lights)) {
-        Some((index, node)) => {
-            Err(Defect::new(label("node", index, Some(&node.name)), "names a light that does not exist"))
-        }
-        None => Ok(()),
-    }
 }

@@ -11,7 +11,7 @@ use super::{
 use crate::scene::{Mesh, Node, Skin};
 
 pub(super) fn load_all(source: &Source, rank: &[usize], warnings: &mut Vec<String>) -> Result<Vec<Skin>, Defect> {
-    let skins = source.document.as_json().skins.iter().enumerate();
+    let skins = source.root.skins.iter().enumerate();
     skins.map(|(index, skin)| load(source, index, skin, rank, warnings)).collect()
 }
 
@@ -35,7 +35,10 @@ fn load(
                 let cause = format!("has {} inverse bind matrices for {} joints", elements.count, joints.len());
                 return Err(Defect::new(object(), cause));
             }
-            let columns: Vec<[f32; 16]> = elements.floats(0..joints.len()).about(object)?;
+            let columns: Vec<[f32; 16]> = elements
+                .floats(0..joints.len())
+                .map_err(|cause| format!("accessor {accessor} of its inverse bind matrices {cause}"))
+                .about(object)?;
             columns.into_iter().map(|columns| affine(&columns.map(f64::from), &object, warnings)).collect()
         }
     };
@@ -44,6 +47,19 @@ fn load(
         None => {
             let name = skin.name.clone().unwrap_or_else(|| format!("skin {index}"));
             Ok(Skin { name, joints, inverse_bind })
+        }
+    }
+}
+
+/// glTF wants the joints of a skin below one node; they pose as well without.
+pub(super) fn check_roots(skins: &[Skin], nodes: &[Node], warnings: &mut Vec<String>) {
+    let mut roots: Vec<usize> = Vec::with_capacity(nodes.len());
+    for (index, node) in nodes.iter().enumerate() {
+        roots.push(node.parent.map_or(index, |parent| roots[parent]));
+    }
+    for skin in skins {
+        if skin.joints.iter().any(|&joint| roots[joint] != roots[skin.joints[0]]) {
+            warnings.push(format!("skin \"{}\": its joints have no common root", skin.name));
         }
     }
 }

@@ -1,20 +1,24 @@
 //! Joints and weights of a primitive: any number of sets merged into the four strongest that sum to 1.
 
-use gltf::json::{mesh::Semantic, validation::Checked};
+use gltf::json::mesh::Semantic;
 
 use super::{
+    attributes::Attributes,
     error::{About, Defect, counted},
-    mesh::Attributes,
 };
 
 /// Influences kept a vertex.
 const KEPT: usize = 4;
+/// Weights of normalised bytes, four of them, sum to 1 within this.
+const SUM_TOLERANCE: f64 = 0.01;
 
 /// What [`Influences::of`] had to change, counted over the vertices of one primitive.
 #[derive(Default)]
 struct Repairs {
     without_weight: usize,
     negative: usize,
+    not_normalized: usize,
+    repeated: usize,
     dropped: usize,
     largest_dropped_share: f64,
 }
@@ -55,23 +59,18 @@ impl Influences {
     }
 }
 
-impl Attributes<'_> {
-    /// Sets 0, 1, … that have joints or weights; a lone one of the two is reported on reading.
-    fn joint_sets(&self) -> u32 {
-        let has = |semantic| self.accessors.contains_key(&Checked::Valid(semantic));
-        (0..).take_while(|&set| has(Semantic::Joints(set)) || has(Semantic::Weights(set))).count() as u32
-    }
-}
-
 /// The strongest influences of one vertex, renormalised. Those of no weight name joint 0.
 fn strongest(mut all: Vec<(u32, f32)>, repairs: &mut Repairs) -> ([u32; KEPT], [f32; KEPT]) {
     let first_joint = all[0].0;
     repairs.negative += usize::from(all.iter().any(|&(_, weight)| weight < 0.0));
     all.retain(|&(_, weight)| weight > 0.0);
+    let total: f64 = all.iter().map(|&(_, weight)| f64::from(weight)).sum();
+    repairs.not_normalized += usize::from(!all.is_empty() && (total - 1.0).abs() > SUM_TOLERANCE);
+    let is_repeated = |(slot, (joint, _)): (usize, &(u32, f32))| all[..slot].iter().any(|(other, _)| other == joint);
+    repairs.repeated += usize::from(all.iter().enumerate().any(is_repeated));
     if all.len() > KEPT {
         all.sort_by(|a, b| b.1.total_cmp(&a.1)); // stable: equal weights stay in the file's order
     }
-    let total: f64 = all.iter().map(|&(_, weight)| f64::from(weight)).sum();
     let kept: f64 = all.iter().take(KEPT).map(|&(_, weight)| f64::from(weight)).sum();
     if all.len() > KEPT {
         repairs.dropped += 1;
@@ -100,6 +99,14 @@ impl Repairs {
         if self.negative > 0 {
             let count = vertices(self.negative);
             warnings.push(format!("{primitive}: {count} with negative joint weights, taken as 0"));
+        }
+        if self.not_normalized > 0 {
+            let count = vertices(self.not_normalized);
+            warnings.push(format!("{primitive}: {count} whose joint weights do not sum to 1; they are normalised"));
+        }
+        if self.repeated > 0 {
+            let count = vertices(self.repeated);
+            warnings.push(format!("{primitive}: {count} with a joint named twice; its weights are added"));
         }
         if self.dropped > 0 {
             let (count, percent) = (vertices(self.dropped), 100.0 * self.largest_dropped_share);

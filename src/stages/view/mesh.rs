@@ -42,8 +42,8 @@ pub struct DrawParams {
     pub object: u32,
     pub alpha_mode: u32,
     pub cutoff: f32,
-    pub pad0: u32,
-    pub pad1: u32,
+    pub unlit: u32,
+    pub pad: u32,
 }
 
 /// What is drawn into.
@@ -163,8 +163,8 @@ fn draw_params(draw: &Draw<'_>, material: &Material, skinned: bool) -> DrawParam
         object: draw.number,
         alpha_mode,
         cutoff,
-        pad0: 0,
-        pad1: 0,
+        unlit: u32::from(material.unlit),
+        pad: 0,
     }
 }
 

@@ -12,7 +12,7 @@ use super::mesh_texture::{MeshTexture, TextureUploader};
 use crate::data::octree::Slot;
 use crate::data::packing::{pack_normal, pack_rgba8};
 use crate::gpu::{Gpu, GpuBuffer, GpuError};
-use crate::scene::{Material, Motion, Object, Primitive, Scene};
+use crate::scene::{Material, Motion, Object, Primitive, Scene, TextureRef};
 use crate::settings::Hidden;
 
 /// Vertices of a batch, unless one primitive has more: 16 MiB, uploaded in one go.
@@ -159,7 +159,7 @@ impl MeshScene {
                 first_index: indices.len() as u32,
                 index_count: 3 * primitive.triangles.len() as u32,
             });
-            let slot = material(&self.scene, primitive).and_then(|m| m.base_color_texture).map_or(0, |t| t.tex_coord);
+            let slot = material(&self.scene, primitive).and_then(|m| m.base_color_texture);
             vertices.extend((0..primitive.positions.len()).map(|vertex| mesh_vertex(primitive, vertex, slot)));
             indices.extend(primitive.triangles.iter().flatten());
             if skinned {
@@ -214,13 +214,13 @@ fn batches(
     batches.into_iter().map(move |(_, primitives)| Waiting::Batch { primitives, skinned })
 }
 
-fn mesh_vertex(primitive: &Primitive, vertex: usize, tex_coord: usize) -> MeshVertex {
-    let tex_coords = primitive.tex_coords.get(tex_coord);
+fn mesh_vertex(primitive: &Primitive, vertex: usize, slot: Option<TextureRef>) -> MeshVertex {
+    let tex_coord = |slot: TextureRef| Some(slot.uv(*primitive.tex_coords.get(slot.tex_coord)?.get(vertex)?));
     let color = primitive.colors.get(vertex).copied().unwrap_or(Vec4::ONE);
     MeshVertex {
         position: primitive.positions[vertex].to_array(),
         normal: pack_normal(primitive.normals.get(vertex).copied().unwrap_or(Vec3::ZERO).as_dvec3()),
-        tex_coord: tex_coords.and_then(|t| t.get(vertex)).copied().unwrap_or(Vec2::ZERO).to_array(),
+        tex_coord: slot.and_then(tex_coord).unwrap_or(Vec2::ZERO).to_array(),
         color: pack_rgba8(color.to_array().map(f64::from)),
         pad: 0,
     }

@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
-use crate::data::voxel_cache::VoxelJoints;
+use crate::data::voxel_cache::{JOINT_WEIGHT_SUM, VoxelJoints};
 use crate::scene::Primitive;
 
 /// A corner's weight of 1, as an integer.
 const WEIGHT_ONE: f64 = 65536.0;
-const TOTAL: u64 = 255;
+const TOTAL: u64 = JOINT_WEIGHT_SUM as u64;
 
 /// Integer weight sums by joint; empty at the start of a cell.
 #[derive(Debug, Default)]

@@ -25,14 +25,15 @@ use rayon::prelude::*;
 pub use coverage::CellBox;
 pub use pyramid::{Texels, TexturePyramids};
 
-use crate::data::voxel_cache::{VoxelCache, VoxelizationMode, VoxelizeReport};
+use crate::data::voxel_cache::{MAX_COORDINATE_CELLS, VoxelCache, VoxelizationMode, VoxelizeReport};
 use crate::progress::{Cancelled, Progress};
-use crate::scene::{Material, Primitive};
+use crate::scene::{Material, Primitive, TextureRef};
 use fragments::{Fragments, MAX_EXTENT_CELLS, Soup};
 use payload::MAX_FRAGMENTS;
 
-/// Cells this far from the lattice's origin still have exact neighbours in 32 bits.
-const MAX_COORDINATE_CELLS: f64 = (1 << 30) as f64;
+/// Goes up with every change that gives any input another [`VoxelCache`]: caches kept on disk by
+/// other versions are not read.
+pub const ALGORITHM_VERSION: u32 = 1;
 
 /// Geometry in lattice cells: the caller has applied stretch, span and phase.
 pub struct VoxelizeInput<'a> {
@@ -74,16 +75,23 @@ impl<'a> VoxelizeInput<'a> {
     /// Units by which [`voxelize`] advances its progress; the caller announces them, so that a
     /// scene's total is known before its first object is done.
     pub fn work_units(&self) -> u64 {
-        2 * self.triangle_count()
+        work_units(self.triangle_count())
+    }
+
+    /// Does a material in use give light? Then every voxel has an emission.
+    pub fn emits(&self) -> bool {
+        let default = Material::default();
+        self.part_materials(&default).iter().any(|material| material.emissive != [0.0; 3])
     }
 
     /// The material of every part; validated by [`Self::check`].
-    fn part_materials(&self, default: &'a Material) -> Vec<&'a Material> {
+    pub(crate) fn part_materials(&self, default: &'a Material) -> Vec<&'a Material> {
         let material = |part: &VoxelizePart| part.primitive.material.and_then(|index| self.materials.get(index));
         self.parts.iter().map(|part| material(part).unwrap_or(default)).collect()
     }
 
-    fn check(&self) -> Result<(), VoxelizeError> {
+    /// Is every part whole, and is what it names there?
+    pub(crate) fn check(&self) -> Result<(), VoxelizeError> {
         for (index, part) in self.parts.iter().enumerate() {
             let fault = |cause| Err(VoxelizeError::Part { part: index, cause });
             if part.normals.len() != part.positions_cells.len() {
@@ -91,13 +99,22 @@ impl<'a> VoxelizeInput<'a> {
             }
             let Some(material) = part.primitive.material else { continue };
             let Some(material) = self.materials.get(material) else { return fault("its material does not exist") };
-            let slots = [material.base_color_texture, material.metallic_roughness_texture, material.emissive_texture];
-            if !slots.iter().all(|&slot| self.textures.holds(slot)) {
+            if !textures_read(material).iter().all(|&slot| self.textures.holds(slot)) {
                 return fault("its material names a texture that is missing or empty");
             }
         }
         Ok(())
     }
+}
+
+/// The textures of a material that voxelization reads.
+pub(crate) fn textures_read(material: &Material) -> [Option<TextureRef>; 3] {
+    [material.base_color_texture, material.metallic_roughness_texture, material.emissive_texture]
+}
+
+/// [`VoxelizeInput::work_units`] of an object that is known by its size only.
+pub fn work_units(triangles: u64) -> u64 {
+    2 * triangles
 }
 
 /// Voxels of one object. Advances `progress` by [`VoxelizeInput::work_units`].
@@ -147,7 +164,7 @@ fn check_vertices(soup: &Soup) -> Result<[DVec3; 2], VoxelizeError> {
     let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     for (index, part) in soup.parts.iter().enumerate() {
         // Written so that NaN fails it too.
-        let usable = |position: &DVec3| position.abs().cmple(DVec3::splat(MAX_COORDINATE_CELLS)).all();
+        let usable = |position: &DVec3| position.abs().cmple(DVec3::splat(f64::from(MAX_COORDINATE_CELLS))).all();
         if let Some(vertex) = part.positions.iter().position(|position| !usable(position)) {
             return Err(VoxelizeError::Position { part: index, vertex });
         }

@@ -136,7 +136,7 @@ impl<'a> Shader<'a> {
         let mut run = Run::default();
         let mut current: Option<Current> = None;
         let mut joints = JointSums::default();
-        let emits = self.materials.iter().any(|material| material.emissive != [0.0; 3]);
+        let emits = self.input.emits();
         for cell_fragments in fragments.chunk_by(|a, b| a.key == b.key) {
             let key = cell_fragments[0].key;
             let (tile, place) = split_key(key);

@@ -1,6 +1,6 @@
 //! What a material shows at a point of a triangle: glTF's metallic-roughness, in linear light.
 
-use glam::{DVec2, DVec3, Vec2, Vec4};
+use glam::{DVec3, Vec2, Vec4};
 
 use super::pyramid::{Texels, TexturePyramids};
 use crate::scene::{AlphaMode, Material, Primitive, TextureRef};
@@ -54,7 +54,10 @@ impl SurfaceReader<'_> {
 
     fn sample(&self, slot: TextureRef, texels: Texels, vertices: [u32; 3], place: DVec3, share: f64) -> [f64; 4] {
         let coordinates = self.primitive.tex_coords.get(slot.tex_coord).map_or(&[][..], Vec::as_slice);
-        let corner = |vertex: u32| coordinates.get(vertex as usize).map_or(DVec2::ZERO, |uv: &Vec2| uv.as_dvec2());
+        let corner = |vertex: u32| {
+            let tex_coord: Vec2 = coordinates.get(vertex as usize).copied().unwrap_or_default();
+            slot.uv(tex_coord).as_dvec2()
+        };
         let [a, b, c] = vertices.map(corner);
         let uv = a * place.x + b * place.y + c * place.z;
         let uv_area = 0.5 * (b - a).perp_dot(c - a).abs() * share;

@@ -127,4 +127,4 @@ pub fn texture(width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> 
     Texture { name: "test".to_owned(), image: Arc::new(image), wrap: [Wrap::Repeat; 2], nearest: false }
 }
 
-pub const FIRST: Option<TextureRef> = Some(TextureRef { texture: 0, tex_coord: 0 });
+pub const FIRST: Option<TextureRef> = Some(TextureRef::new(0, 0));

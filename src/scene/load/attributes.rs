@@ -1,0 +1,193 @@
+//! The vertex attributes of one primitive: from accessors or out of a Draco stream, morphed by the
+//! mesh's weights, and read only at the vertices that its triangles use.
+
+use glam::{Vec2, Vec3, Vec4};
+use gltf::json::{
+    Index,
+    accessor::Accessor,
+    mesh::{MorphTarget, Primitive, Semantic},
+    validation::Checked,
+};
+
+use super::{
+    accessor::Elements,
+    draco,
+    error::{About, Defect, counted},
+    source::Source,
+};
+
+/// What one primitive of the file says about its vertices.
+pub(super) struct Attributes<'a> {
+    source: &'a Source<'a>,
+    declared: &'a Primitive,
+    draco: Option<draco::Decoded>,
+    /// Morph targets that have weight.
+    morphs: Vec<(&'a MorphTarget, f32)>,
+    /// As messages name it.
+    pub primitive: String,
+    /// Of the file, by vertex of the scene.
+    pub vertices: Vec<u32>,
+    /// How many the file has.
+    declared_count: usize,
+}
+
+impl<'a> Attributes<'a> {
+    /// `weights` are the mesh's, one a morph target; those that are missing are 0.
+    pub fn new(
+        source: &'a Source,
+        primitive: String,
+        declared: &'a Primitive,
+        weights: &[f32],
+        warnings: &mut Vec<String>,
+    ) -> Result<Self, Defect> {
+        let targets = declared.targets.as_deref().unwrap_or_default();
+        if !weights.is_empty() && weights.len() != targets.len() {
+            let (weights, targets) = (weights.len(), counted(targets.len(), "morph target", "morph targets"));
+            warnings.push(format!("{primitive}: it has {targets}, and its mesh or node has {weights} weights"));
+        }
+        let draco = draco::Decoded::of(source, &primitive, declared)?;
+        let morphs = targets.iter().zip(weights.iter().copied()).filter(|&(_, weight)| weight != 0.0).collect();
+        let mut attributes =
+            Self { source, declared, draco, morphs, primitive, vertices: Vec::new(), declared_count: 0 };
+        attributes.declared_count = attributes.elements(&Semantic::Positions)?.map_or(0, |elements| elements.count);
+        Ok(attributes)
+    }
+
+    pub fn vertex_count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    pub fn object(&self, semantic: &Semantic) -> String {
+        format!("{}, {}", self.primitive, semantic.to_string())
+    }
+
+    pub fn has(&self, semantic: Semantic) -> bool {
+        self.declared.attributes.contains_key(&Checked::Valid(semantic))
+    }
+
+    fn elements(&self, semantic: &Semantic) -> Result<Option<Elements<'_>>, Defect> {
+        if let Some(elements) = self.draco.as_ref().and_then(|draco| draco.elements(semantic)) {
+            return elements.map(Some).about(|| self.object(semantic));
+        }
+        let accessor = self.declared.attributes.get(&Checked::Valid(semantic.clone()));
+        accessor.map(|&accessor| self.source.elements(accessor)).transpose().about(|| self.object(semantic))
+    }
+
+    /// An attribute that must be there, as long as POSITION.
+    fn required(&self, semantic: &Semantic) -> Result<Elements<'_>, Defect> {
+        let elements = self.elements(semantic)?;
+        let elements = elements.ok_or_else(|| Defect::new(self.object(semantic), "is missing"))?;
+        if elements.count != self.declared_count {
+            let cause = format!("has {} elements, and POSITION has {}", elements.count, self.declared_count);
+            return Err(Defect::new(self.object(semantic), cause));
+        }
+        Ok(elements)
+    }
+
+    fn picked(&self) -> impl Iterator<Item = usize> + '_ {
+        self.vertices.iter().map(|&vertex| vertex as usize)
+    }
+
+    /// The attribute at every vertex, all finite.
+    pub fn floats<const N: usize>(&self, semantic: &Semantic) -> Result<Vec<[f32; N]>, Defect> {
+        let elements = self.required(semantic)?;
+        self.source.budget.spend_on(self.vertices.len(), size_of::<[f32; N]>()).about(|| self.object(semantic))?;
+        let mut rows: Vec<[f32; N]> = elements.floats(self.picked()).about(|| self.object(semantic))?;
+        for (target, weight) in &self.morphs {
+            self.add_target(semantic, target, *weight, &mut rows)?;
+        }
+        match rows.iter().position(|row| row.iter().any(|value| !value.is_finite())) {
+            Some(bad) => {
+                let cause = format!("is not finite at vertex {}: {:?}", self.vertices[bad], rows[bad]);
+                Err(Defect::new(self.object(semantic), cause))
+            }
+            None => Ok(rows),
+        }
+    }
+
+    /// Displacements have three components; the handedness of a tangent is not displaced.
+    fn add_target<const N: usize>(
+        &self,
+        semantic: &Semantic,
+        target: &MorphTarget,
+        weight: f32,
+        rows: &mut [[f32; N]],
+    ) -> Result<(), Defect> {
+        let Some(accessor) = displacements(target, semantic) else { return Ok(()) };
+        let object = || format!("{}, morph target", self.object(semantic));
+        let elements = self.source.elements(accessor).about(object)?;
+        if elements.count != self.declared_count {
+            let cause = format!("has {} elements, and POSITION has {}", elements.count, self.declared_count);
+            return Err(Defect::new(object(), cause));
+        }
+        let moves: Vec<[f32; 3]> = elements.floats(self.picked()).about(object)?;
+        for (row, step) in rows.iter_mut().zip(moves) {
+            row.iter_mut().zip(step).for_each(|(lane, step)| *lane += weight * step);
+        }
+        Ok(())
+    }
+
+    pub fn unsigned<const N: usize>(&self, semantic: &Semantic) -> Result<Vec<[u32; N]>, Defect> {
+        self.required(semantic)?.unsigned(self.picked()).about(|| self.object(semantic))
+    }
+
+    pub fn tex_coords(&self, set: u32) -> Result<Vec<Vec2>, Defect> {
+        let semantic = Semantic::TexCoords(set);
+        match self.elements(&semantic)? {
+            Some(elements) if elements.is_u32() => Err(Defect::new(
+                self.object(&semantic),
+                "holds 32-bit integers, and floats or normalised integers are needed",
+            )),
+            Some(_) => Ok(self.floats(&semantic)?.into_iter().map(Vec2::from_array).collect()),
+            None => Ok(Vec::new()),
+        }
+    }
+
+    pub fn colors(&self) -> Result<Vec<Vec4>, Defect> {
+        let semantic = Semantic::Colors(0);
+        match self.elements(&semantic)?.map(|elements| elements.lanes) {
+            None => Ok(Vec::new()),
+            Some(3) => Ok(self.floats(&semantic)?.into_iter().map(|rgb| Vec3::from_array(rgb).extend(1.0)).collect()),
+            Some(_) => Ok(self.floats(&semantic)?.into_iter().map(Vec4::from_array).collect()),
+        }
+    }
+
+    /// Vertex numbers in drawing order, all in range.
+    pub fn corners(&self) -> Result<Vec<u32>, Defect> {
+        let object = || format!("{}, indices", self.primitive);
+        let count = u32::try_from(self.declared_count)
+            .map_err(|_| Defect::new(self.object(&Semantic::Positions), "has more than 2^32 vertices"))?;
+        let budget = |corners: usize| self.source.budget.spend_on(corners, size_of::<u32>()).about(object);
+        let elements = match self.draco.as_ref().and_then(draco::Decoded::indices) {
+            Some(decoded) => Some(decoded.about(object)?),
+            None => self.declared.indices.map(|indices| self.source.elements(indices)).transpose().about(object)?,
+        };
+        let Some(elements) = elements else {
+            budget(self.declared_count)?;
+            return Ok((0..count).collect());
+        };
+        budget(elements.count)?;
+        let rows = elements.unsigned::<1>(0..elements.count).about(object)?;
+        match rows.iter().position(|[vertex]| *vertex >= count) {
+            Some(at) => {
+                let cause = format!("index {at} names vertex {} of {count}", rows[at][0]);
+                Err(Defect::new(object(), cause))
+            }
+            None => Ok(rows.into_iter().flatten().collect()),
+        }
+    }
+
+    /// Sets 0, 1, … that have joints or weights; a lone one of the two is reported on reading.
+    pub fn joint_sets(&self) -> u32 {
+        (0..).take_while(|&set| self.has(Semantic::Joints(set)) || self.has(Semantic::Weights(set))).count() as u32
+    }
+}
+
+fn displacements(target: &MorphTarget, semantic: &Semantic) -> Option<Index<Accessor>> {
+    match semantic {
+        Semantic::Positions => target.positions,
+        Semantic::Normals => target.normals,
+        Semantic::Tangents => target.tangents,
+        _ => None,
+    }
+}

@@ -1,0 +1,59 @@
+//! KHR_lights_punctual, in its units.
+
+use std::f32::consts::FRAC_PI_4;
+
+use gltf::json::{
+    Root,
+    extensions::scene::khr_lights_punctual::{Light as FileLight, Type},
+    validation::Checked,
+};
+
+use super::error::label;
+use crate::scene::{Light, LightKind};
+
+/// The lights that make sense, and for each of the file where it went.
+pub(super) fn load(root: &Root, warnings: &mut Vec<String>) -> (Vec<Light>, Vec<Option<usize>>) {
+    let declared = root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
+    let mut lights = Vec::new();
+    let places = declared.iter().flat_map(|lights| &lights.lights).enumerate().map(|(index, light)| {
+        let object = label("light", index, light.name.as_deref());
+        match kind(light, &object, warnings) {
+            Ok(kind) => {
+                let name = light.name.clone().unwrap_or_else(|| format!("light {index}"));
+                lights.push(Light { name, kind, color: light.color, intensity: light.intensity });
+                Some(lights.len() - 1)
+            }
+            Err(cause) => {
+                warnings.push(format!("{object}: it {cause}; it is left out"));
+                None
+            }
+        }
+    });
+    let places = places.collect();
+    (lights, places)
+}
+
+fn kind(light: &FileLight, object: &str, warnings: &mut Vec<String>) -> Result<LightKind, String> {
+    if !light.intensity.is_finite() || !light.color.iter().all(|channel| channel.is_finite()) {
+        return Err("has a colour or intensity that is not finite".to_owned());
+    }
+    let range = light.range.filter(|range| *range > 0.0);
+    match (&light.type_, &light.spot) {
+        (Checked::Valid(Type::Directional), _) => Ok(LightKind::Directional),
+        (Checked::Valid(Type::Point), _) => Ok(LightKind::Point { range }),
+        (Checked::Valid(Type::Spot), spot) => {
+            let (inner, outer) =
+                spot.as_ref().map_or((0.0, FRAC_PI_4), |spot| (spot.inner_cone_angle, spot.outer_cone_angle));
+            if spot.is_none() {
+                warnings.push(format!("{object}: it is a spot light without a cone; it gets glTF's default"));
+            }
+            match 0.0 <= inner && inner < outer && outer <= std::f32::consts::FRAC_PI_2 {
+                true => Ok(LightKind::Spot { range, inner_cone_radians: inner, outer_cone_radians: outer }),
+                false => {
+                    Err(format!("has a cone from {inner} to {outer} radians, which must grow from 0 to at most π/2"))
+                }
+            }
+        }
+        (Checked::Invalid, _) => Err("is of a type that glTF does not know".to_owned()),
+    }
+}

@@ -1,0 +1,149 @@
+//! Textures: images and how they are addressed. Images are decoded in parallel; one that cannot be
+//! decoded costs its textures, which is said in a warning, not the file.
+
+use std::sync::Arc;
+
+use glam::{Affine2, Vec2};
+use gltf::json::{
+    Image,
+    extensions::texture::TextureTransform,
+    texture::{Info, MagFilter, Sampler, WrappingMode},
+    validation::Checked,
+};
+use image::RgbaImage;
+use rayon::prelude::*;
+
+use super::{
+    error::{Defect, label},
+    image as image_file,
+    source::Source,
+    uri::Target,
+};
+use crate::{
+    progress::Progress,
+    scene::{Texture, TextureRef, Wrap},
+};
+
+/// The textures that could be read, and for each of the file where it went.
+pub(super) struct Textures {
+    pub list: Vec<Texture>,
+    places: Vec<Option<usize>>,
+}
+
+impl Textures {
+    pub fn load(source: &Source, progress: &Progress, warnings: &mut Vec<String>) -> Result<Self, Defect> {
+        let root = &source.root;
+        let images = decode_images(source, progress)?;
+        for (index, image) in images.iter().enumerate() {
+            if let Err(cause) = image {
+                let object = label("image", index, root.images[index].name.as_deref());
+                warnings.push(format!("{object} {cause}; materials go without it"));
+            }
+        }
+        let mut textures = Self { list: Vec::new(), places: Vec::new() };
+        for (index, texture) in root.textures.iter().enumerate() {
+            let object = label("texture", index, texture.name.as_deref());
+            // Without an image the source is out of range.
+            let place = root.images.get(texture.source.value());
+            if place.is_none() {
+                warnings.push(format!("{object}: it has no image; materials go without it"));
+            }
+            let image = images.get(texture.source.value()).and_then(|image| image.as_ref().ok());
+            textures.places.push(image.map(|_| textures.list.len()));
+            textures.list.extend(image.zip(place).map(|(image, declared)| {
+                let sampler = texture.sampler.and_then(|sampler| root.samplers.get(sampler.value()));
+                let uri = declared.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
+                let name = texture.name.as_deref().or(declared.name.as_deref()).or(uri);
+                Texture {
+                    name: name.map_or_else(|| format!("texture {index}"), str::to_owned),
+                    image: Arc::clone(image),
+                    wrap: wraps(sampler, &object, warnings),
+                    nearest: matches!(sampler.and_then(|s| s.mag_filter), Some(Checked::Valid(MagFilter::Nearest))),
+                }
+            }));
+        }
+        Ok(textures)
+    }
+
+    /// Adds a texture of our own making; returns where it is.
+    pub fn add(&mut self, texture: Texture) -> usize {
+        self.list.push(texture);
+        self.list.len() - 1
+    }
+
+    /// How a material's slot reads its texture; `None` where it is empty or must do without.
+    pub fn slot(&self, object: &str, info: Option<&Info>, warnings: &mut Vec<String>) -> Option<TextureRef> {
+        let info = info?;
+        let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
+        self.place(object, info.index.value(), info.tex_coord, transform, warnings)
+    }
+
+    /// [`Self::slot`] by its parts.
+    pub fn place(
+        &self,
+        object: &str,
+        texture: usize,
+        tex_coord: u32,
+        transform: Option<&TextureTransform>,
+        warnings: &mut Vec<String>,
+    ) -> Option<TextureRef> {
+        let texture = self.places.get(texture).copied().flatten()?;
+        let tex_coord = transform.and_then(|transform| transform.tex_coord).unwrap_or(tex_coord);
+        if tex_coord > 1 {
+            warnings
+                .push(format!("{object}: a texture reads TEXCOORD_{tex_coord}, and 0 and 1 are read; it is left out"));
+            return None;
+        }
+        let uv_from_tex_coord = transform.map_or(Affine2::IDENTITY, affine);
+        if !uv_from_tex_coord.is_finite() {
+            warnings.push(format!("{object}: a texture's transform is not finite; the texture is left out"));
+            return None;
+        }
+        Some(TextureRef { texture, tex_coord: tex_coord as usize, uv_from_tex_coord })
+    }
+}
+
+/// KHR_texture_transform: scale, then a turn against the clock as seen with v downwards, then offset.
+fn affine(transform: &TextureTransform) -> Affine2 {
+    let [scale, offset] = [transform.scale.0, transform.offset.0].map(Vec2::from_array);
+    Affine2::from_scale_angle_translation(scale, -transform.rotation.0, offset)
+}
+
+fn wraps(sampler: Option<&Sampler>, object: &str, warnings: &mut Vec<String>) -> [Wrap; 2] {
+    let Some(sampler) = sampler else { return [Wrap::Repeat; 2] };
+    [sampler.wrap_s, sampler.wrap_t].map(|mode| match mode {
+        Checked::Valid(WrappingMode::Repeat) => Wrap::Repeat,
+        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::MirroredRepeat,
+        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::ClampToEdge,
+        Checked::Invalid => {
+            warnings.push(format!("{object}: its sampler has a wrap mode that glTF does not know; it repeats"));
+            Wrap::Repeat
+        }
+    })
+}
+
+/// By image of the file, whether a texture shows it or not.
+fn decode_images(source: &Source, progress: &Progress) -> Result<Vec<Result<Arc<RgbaImage>, String>>, Defect> {
+    let images = &source.root.images;
+    progress.add_total(images.len() as u64);
+    let decoded: Vec<Result<Result<Arc<RgbaImage>, String>, Defect>> = (images.par_iter())
+        .map(|image| {
+            let decoded = decode(source, image).map(Arc::new);
+            progress.advance(1)?;
+            Ok(decoded)
+        })
+        .collect();
+    decoded.into_iter().collect()
+}
+
+fn decode(source: &Source, image: &Image) -> Result<RgbaImage, String> {
+    match (&image.uri, image.buffer_view) {
+        (Some(uri), _) => image_file::decode(&Target::of(uri, source.base_dir)?.read(source.budget)?, source.budget),
+        (None, Some(view)) => {
+            let bytes =
+                source.view_bytes(view).map_err(|cause| format!("lies in buffer view {view}, which {cause}"))?;
+            image_file::decode(bytes, source.budget)
+        }
+        (None, None) => Err("has no data".to_owned()),
+    }
+}

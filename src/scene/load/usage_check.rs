@@ -1,0 +1,191 @@
+//! How accessors are used: what glTF asks of one that holds positions, indices or key times, and
+//! that reading them would not notice. Each defect is a warning.
+
+use std::collections::HashMap;
+
+use gltf::json::{
+    Accessor, Index,
+    accessor::{ComponentType, Type},
+    mesh::{Primitive, Semantic},
+    validation::Checked,
+};
+
+use super::{error::label, json::Few, source::Source};
+
+const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+pub(super) fn check(source: &Source, warnings: &mut Vec<String>) {
+    let mut check = Check { source, few: Few::default(), vertex_accessors: HashMap::new() };
+    check.views();
+    for (index, mesh) in source.root.meshes.iter().enumerate() {
+        for (number, primitive) in mesh.primitives.iter().enumerate() {
+            check.primitive(&format!("{}, primitive {number}", label("mesh", index, mesh.name.as_deref())), primitive);
+        }
+    }
+    check.samplers();
+    check.few.append_to(warnings);
+}
+
+struct Check<'a> {
+    source: &'a Source<'a>,
+    few: Few,
+    /// By buffer view: the first accessor of vertex data in it.
+    vertex_accessors: HashMap<usize, usize>,
+}
+
+impl Check<'_> {
+    fn accessor(&self, index: Index<Accessor>) -> &Accessor {
+        &self.source.root.accessors[index.value()]
+    }
+
+    fn stride(&self, accessor: &Accessor) -> Option<usize> {
+        let view = self.source.root.buffer_views.get(accessor.buffer_view?.value())?;
+        view.byte_stride.map(|stride| stride.0)
+    }
+
+    /// Views lie in their buffers, and strides in their views.
+    fn views(&mut self) {
+        for (index, view) in self.source.root.buffer_views.iter().enumerate() {
+            if let Err(cause) = self.source.view_bytes(Index::new(index as u32)) {
+                self.few.add(|| format!("buffer view {index}: it {cause}"));
+            }
+            if let Some(stride) = view.byte_stride.filter(|stride| stride.0 as u64 > view.byte_length.0) {
+                self.few
+                    .add(|| format!("buffer view {index}, byteStride: it is {}, more than the view holds", stride.0));
+            }
+        }
+    }
+
+    fn primitive(&mut self, object: &str, primitive: &Primitive) {
+        let compressed =
+            primitive.extensions.as_ref().is_some_and(|e| e.others.contains_key("KHR_draco_mesh_compression"));
+        for (semantic, &index) in &primitive.attributes {
+            let Checked::Valid(semantic) = semantic else { continue };
+            let object = format!("{object}, {}", semantic.to_string());
+            if !compressed {
+                self.vertex_data(&object, index);
+            }
+            self.attribute(&object, semantic, index);
+        }
+        for (number, target) in primitive.targets.iter().flatten().enumerate() {
+            let displaced = [
+                (Semantic::Positions, target.positions),
+                (Semantic::Normals, target.normals),
+                (Semantic::Tangents, target.tangents),
+            ];
+            for (semantic, index) in displaced {
+                let Some(index) = index else { continue };
+                let object = format!("{object}, morph target {number}, {}", semantic.to_string());
+                self.attribute(&object, &semantic, index);
+                if !primitive.attributes.contains_key(&Checked::Valid(semantic)) {
+                    self.few.add(|| format!("{object}: it displaces what the primitive has not"));
+                }
+            }
+        }
+        if let Some(indices) = primitive.indices {
+            let object = format!("{object}, indices");
+            self.without_stride(&object, indices);
+            self.restart(&object, indices);
+        }
+        self.tex_coords(object, primitive);
+    }
+
+    fn attribute(&mut self, object: &str, semantic: &Semantic, index: Index<Accessor>) {
+        let accessor = self.accessor(index);
+        let lacks_bounds = accessor.min.is_none() || accessor.max.is_none();
+        let is_float =
+            matches!(accessor.component_type, Checked::Valid(component) if component.0 == ComponentType::F32);
+        let quantizable = match semantic {
+            Semantic::Positions | Semantic::Normals | Semantic::Tangents => true,
+            Semantic::TexCoords(_) => !accessor.normalized,
+            _ => false,
+        };
+        if *semantic == Semantic::Positions && lacks_bounds {
+            self.few.add(|| format!("{object}: its accessor declares no min and max"));
+        }
+        let required = self.source.root.extensions_required.iter().any(|name| name == QUANTIZATION);
+        if quantizable && !is_float && !required {
+            self.few.add(|| format!("{object}: it holds integers, and {QUANTIZATION} is not required"));
+        }
+    }
+
+    /// Vertex data is aligned to 4 bytes, and a view of several accessors has a stride.
+    fn vertex_data(&mut self, object: &str, index: Index<Accessor>) {
+        let accessor = self.accessor(index);
+        let Some(view) = accessor.buffer_view else { return };
+        let (offset, stride) = (accessor.byte_offset.unwrap_or_default().0, self.stride(accessor));
+        let size = match (&accessor.component_type, &accessor.type_) {
+            (Checked::Valid(component), Checked::Valid(shape)) => component.0.size() * shape.multiplicity(),
+            _ => return,
+        };
+        if !offset.is_multiple_of(4) || !stride.unwrap_or(size).is_multiple_of(4) {
+            self.few.add(|| format!("{object}: its vertices do not start at multiples of 4 bytes"));
+        }
+        let first = *self.vertex_accessors.entry(view.value()).or_insert(index.value());
+        if stride.is_none() && first != index.value() {
+            self.few
+                .add(|| format!("{object}: it shares buffer view {view} with accessor {first}, without a byteStride"));
+        }
+    }
+
+    fn without_stride(&mut self, object: &str, index: Index<Accessor>) {
+        if self.stride(self.accessor(index)).is_some() {
+            self.few.add(|| format!("{object}: its buffer view has a byteStride, which is for vertices alone"));
+        }
+    }
+
+    /// The largest index restarts a strip elsewhere; glTF has no such thing.
+    fn restart(&mut self, object: &str, index: Index<Accessor>) {
+        let Checked::Valid(component) = self.accessor(index).component_type else { return };
+        let restart = match component.0 {
+            ComponentType::U8 => u32::from(u8::MAX),
+            ComponentType::U16 => u32::from(u16::MAX),
+            _ => u32::MAX,
+        };
+        let Ok(elements) = self.source.elements(index) else { return };
+        let Ok(rows) = elements.unsigned::<1>(0..elements.count) else { return };
+        if rows.contains(&[restart]) {
+            self.few.add(|| format!("{object}: {restart} restarts a primitive elsewhere, and glTF does not allow it"));
+        }
+    }
+
+    /// The coordinates that its material reads.
+    fn tex_coords(&mut self, object: &str, primitive: &Primitive) {
+        let Some(material) = primitive.material.and_then(|index| self.source.root.materials.get(index.value())) else {
+            return;
+        };
+        let pbr = &material.pbr_metallic_roughness;
+        let set = |info: &gltf::json::texture::Info| {
+            let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
+            transform.and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord)
+        };
+        let slots = [&pbr.base_color_texture, &pbr.metallic_roughness_texture, &material.emissive_texture];
+        let sets = slots.into_iter().flatten().map(set).chain(material.normal_texture.as_ref().map(|n| n.tex_coord));
+        let missing =
+            sets.filter(|&set| !primitive.attributes.contains_key(&Checked::Valid(Semantic::TexCoords(set)))).max();
+        if let Some(set) = missing {
+            self.few.add(|| format!("{object}: its material reads TEXCOORD_{set}, which it has not"));
+        }
+    }
+
+    fn samplers(&mut self) {
+        for (index, animation) in self.source.root.animations.iter().enumerate() {
+            for (number, sampler) in animation.samplers.iter().enumerate() {
+                let object = format!("{}, sampler {number}", label("animation", index, animation.name.as_deref()));
+                let input = self.accessor(sampler.input);
+                let scalar = matches!(input.type_, Checked::Valid(Type::Scalar));
+                let float =
+                    matches!(input.component_type, Checked::Valid(component) if component.0 == ComponentType::F32);
+                let bounded = input.min.is_some() && input.max.is_some();
+                if !(scalar && float) {
+                    self.few.add(|| format!("{object}: its input must be scalar floats"));
+                }
+                if !bounded {
+                    self.few.add(|| format!("{object}: its input declares no min and max"));
+                }
+                self.without_stride(&format!("{object}, input"), sampler.input);
+                self.without_stride(&format!("{object}, output"), sampler.output);
+            }
+        }
+    }
+}

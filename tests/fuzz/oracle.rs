@@ -1,0 +1,114 @@
+//! What must hold for any input.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, Once, PoisonError};
+use std::time::{Duration, Instant};
+
+use octolume::{
+    prepare::prepare,
+    progress::Progress,
+    scene::{Scene, load},
+    settings::Discretization,
+};
+use tempfile::NamedTempFile;
+
+use crate::ALLOCATOR;
+
+/// A file may take this long; what takes longer hangs.
+const TIME_LIMIT: Duration = Duration::from_secs(20);
+
+/// Allowed for opening a file.
+const MEMORY_BUDGET_BYTES: u64 = 16 << 20;
+
+/// Above the budget: work space of threads and decoders, and what is twice there while it moves from
+/// the file's form to the scene's.
+const MEMORY_SLACK_BYTES: u64 = 32 << 20;
+
+/// One input at a time, since memory is counted for the whole process.
+static TURN: Mutex<()> = Mutex::new(());
+
+/// Since when which input is under test.
+static UNDER_TEST: Mutex<Option<(Instant, Vec<u8>)>> = Mutex::new(None);
+
+pub fn check(file: &[u8]) {
+    let _turn = locked(&TURN);
+    let _under_test = UnderTest::start(file);
+    let mut on_disk = NamedTempFile::new().expect("a temporary file");
+    on_disk.write_all(file).expect("written");
+    let options = load::OpenOptions { memory_budget_bytes: MEMORY_BUDGET_BYTES, ..Default::default() };
+    ALLOCATOR.reset_peak_usage();
+    let before = ALLOCATOR.current_usage();
+    let opened = load::open_with(on_disk.path(), &options, &Progress::default());
+    let taken = ALLOCATOR.peak_usage().saturating_sub(before) as u64;
+    assert!(taken <= MEMORY_BUDGET_BYTES + MEMORY_SLACK_BYTES, "{taken} bytes for a file of {}", file.len());
+    match opened {
+        Ok(scene) => show(scene),
+        Err(error) => {
+            let start = format!("{}: ", on_disk.path().display());
+            let sentence = error.to_string();
+            assert!(sentence.len() > start.len() && sentence.starts_with(&start), "{sentence}");
+        }
+    }
+}
+
+/// What the program does with a scene before anything is drawn.
+fn show(scene: Scene) {
+    for clip in (0..scene.clips.len()).map(Some).chain([None]) {
+        for time_secs in [0.0, 0.3, 1e9] {
+            let pose = scene.pose(clip, time_secs);
+            (0..scene.skins.len()).for_each(|skin| assert!(scene.joint_matrices(skin, &pose).len() < usize::MAX));
+            scene.bounds_at(&pose);
+        }
+    }
+    let discretization = Discretization { grid: 64, ..Discretization::default() };
+    if let Err(error) = prepare(Arc::new(scene), &discretization, None, &Progress::default()) {
+        assert!(!error.to_string().is_empty());
+    }
+}
+
+/// Writes the input down where it fails or hangs.
+struct UnderTest;
+
+impl UnderTest {
+    fn start(file: &[u8]) -> Self {
+        static WATCHDOG: Once = Once::new();
+        WATCHDOG.call_once(|| {
+            std::thread::spawn(watch);
+        });
+        *locked(&UNDER_TEST) = Some((Instant::now(), file.to_vec()));
+        Self
+    }
+}
+
+impl Drop for UnderTest {
+    fn drop(&mut self) {
+        let under_test = locked(&UNDER_TEST).take();
+        if let (true, Some((_, file))) = (std::thread::panicking(), under_test) {
+            save("finding.glb", &file);
+        }
+    }
+}
+
+/// A thread that hangs cannot be stopped: the whole process ends.
+fn watch() {
+    loop {
+        std::thread::sleep(TIME_LIMIT / 10);
+        if let Some((_, file)) = locked(&UNDER_TEST).take_if(|(since, _)| since.elapsed() > TIME_LIMIT) {
+            eprintln!("hangs on {}", save("hang.glb", &file).display());
+            std::process::exit(1);
+        }
+    }
+}
+
+fn save(name: &str, file: &[u8]) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::write(&path, file).expect("written");
+    path
+}
+
+/// A finding poisons the locks; shrinking it goes on.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
