@@ -1,7 +1,13 @@
 //! Everything a person can set. Window and command line fill the same struct, a screenshot carries
 //! it, and the engine compares it with what was built to decide what a frame must do.
 
+mod node_names;
+mod visibility;
+
 use serde::{Deserialize, Serialize};
+
+pub use node_names::NodeNames;
+pub use visibility::{Hidden, Visibility, VisibilityError};
 
 use crate::data::voxel_cache::VoxelizationMode;
 use crate::scene::OrbitCamera;
@@ -13,11 +19,13 @@ pub struct Settings {
     pub discretization: Discretization,
     pub motion: MotionSettings,
     pub look: Look,
+    pub visibility: Visibility,
 }
 
 impl Settings {
     /// Are all values in range? If not, the sentence names value and range. Whoever takes settings
-    /// from outside the program asks, before using them.
+    /// from outside the program asks, before using them. Clip and nodes depend on the scene: whoever
+    /// poses it finds out.
     pub fn check(&self) -> Result<(), String> {
         self.discretization.check()?;
         self.motion.check()?;

@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use super::App;
 use super::playback;
 use crate::scene::OrbitCamera;
-use crate::settings::{Discretization, Look, MotionSettings};
+use crate::settings::{Discretization, Look, MotionSettings, Visibility};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Opens a file, or a built-in scene by its name.
     Open(PathBuf),
+    /// Shows another scene of the file that is open, by its number.
+    ShowScene(usize),
     /// Lets the desktop's dialog choose one.
     ChooseFile,
     CancelLoading,
@@ -29,6 +31,18 @@ pub enum Command {
     SceneCamera(usize),
     /// Back to the camera that frames everything.
     FrameAll,
+    /// Brings the selected node into view, everything where none is selected.
+    Frame,
+    /// A node of the scene tree, or none.
+    Select(Option<usize>),
+    /// Hides the selected node, or shows it again.
+    ToggleShown,
+    /// Shows the selected node alone.
+    Isolate,
+    ShowAll,
+    ToggleTree,
+    Undo,
+    Redo,
     SaveScreenshot,
     ClearLog,
 }
@@ -37,7 +51,8 @@ impl App {
     /// Carries out one command. `clock_secs` is the window's clock.
     pub(super) fn apply(&mut self, ctx: &egui::Context, command: Command, clock_secs: f64) {
         match command {
-            Command::Open(path) => self.open(ctx, path),
+            Command::Open(path) => self.open(ctx, path, None),
+            Command::ShowScene(number) => self.show_another_scene(ctx, number),
             Command::ChooseFile => self.desk.choose_file(ctx),
             Command::CancelLoading => self.cancel_loading(),
             Command::Discretize(discretization) => self.settings.discretization = discretization,
@@ -48,6 +63,14 @@ impl App {
             }
             Command::SceneCamera(camera) => self.look_through(camera),
             Command::FrameAll => self.settings.look.camera = None,
+            Command::Frame => self.frame_selected(),
+            Command::Select(node) => self.select(node),
+            Command::ToggleShown => self.toggle_shown(),
+            Command::Isolate => self.isolate(),
+            Command::ShowAll => self.settings.visibility = Visibility::default(),
+            Command::Undo => self.undo_or_redo(true),
+            Command::Redo => self.undo_or_redo(false),
+            Command::ToggleTree => self.desk.unfolded.tree ^= true,
             Command::Move(motion) => {
                 self.settings.motion = motion;
                 self.restart_clock(clock_secs);

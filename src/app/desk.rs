@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::background::{Background, Outcome};
 use super::commands::Command;
 use super::panels::top_bar::Unfolded;
+use super::panels::tree::TreeState;
 
 pub struct Desk {
     /// The path field, as typed.
@@ -12,6 +13,7 @@ pub struct Desk {
     /// Scenes opened, newest first.
     pub recent: Vec<PathBuf>,
     pub unfolded: Unfolded,
+    pub tree: TreeState,
     dialog: Option<Background<Option<PathBuf>>>,
 }
 
@@ -20,7 +22,8 @@ impl Default for Desk {
         Self {
             path: String::new(),
             recent: Vec::new(),
-            unfolded: Unfolded { controls: true, measurements: true },
+            unfolded: Unfolded { controls: true, tree: false, measurements: true },
+            tree: TreeState::default(),
             dialog: None,
         }
     }

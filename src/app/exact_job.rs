@@ -9,27 +9,40 @@ use std::time::{Duration, Instant};
 
 use super::background::{Background, Outcome};
 use crate::prepare::{ExactError, ExactVoxels, Prepared};
-use crate::settings::MotionSettings;
+use crate::settings::{MotionSettings, Settings, Visibility};
 
 /// An exact set that takes no longer than this is waited for.
 const BLINK: Duration = Duration::from_millis(250);
 /// A pose that stays this long rests.
 pub const REST: Duration = Duration::from_millis(200);
 
+/// What an exact set depends on, beside the scene: which objects are posed, and how.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Posed {
+    pub motion: MotionSettings,
+    pub visibility: Visibility,
+}
+
+impl Posed {
+    pub fn of(settings: &Settings) -> Self {
+        Self { motion: settings.motion.clone(), visibility: settings.visibility.clone() }
+    }
+}
+
 #[derive(Default)]
 pub struct ExactJob {
     running: Option<Running>,
     /// The pose of the set that the engine has.
-    shown: Option<MotionSettings>,
+    shown: Option<Posed>,
     scene: Option<Arc<Prepared>>,
     /// How long the last set took; zero before the first.
     took: Duration,
-    wanted: Option<MotionSettings>,
+    wanted: Option<Posed>,
     wanted_since: Option<Instant>,
 }
 
 struct Running {
-    motion: MotionSettings,
+    posed: Posed,
     started: Instant,
     work: Background<Result<ExactVoxels, ExactError>>,
 }
@@ -38,7 +51,7 @@ struct Running {
 #[derive(Debug, Default)]
 pub struct ExactUpdate {
     /// The pose to show.
-    pub motion: MotionSettings,
+    pub posed: Posed,
     /// `Some(None)`: the engine's set is of another pose now.
     pub exact: Option<Option<Arc<ExactVoxels>>>,
     /// What went wrong or was left out, a sentence each.
@@ -46,15 +59,15 @@ pub struct ExactUpdate {
 }
 
 impl ExactJob {
-    /// Once a frame. `wanted`: the pose the person asked for, `None` where nobody looks at exact voxels.
+    /// Once a frame. `posed`: the pose the person asked for.
     pub fn update(
         &mut self,
         ctx: &egui::Context,
         scene: &Arc<Prepared>,
-        motion: &MotionSettings,
+        posed: &Posed,
         looked_at: bool,
     ) -> ExactUpdate {
-        let mut update = ExactUpdate { motion: motion.clone(), ..ExactUpdate::default() };
+        let mut update = ExactUpdate { posed: posed.clone(), ..ExactUpdate::default() };
         let same_scene = self.scene.as_ref().is_some_and(|old| Arc::ptr_eq(old, scene));
         if !looked_at || !same_scene {
             update.exact = self.shown.is_some().then_some(None);
@@ -64,11 +77,11 @@ impl ExactJob {
                 return update;
             }
         }
-        if self.wanted.as_ref() != Some(motion) {
-            (self.wanted, self.wanted_since) = (Some(motion.clone()), Some(Instant::now()));
+        if self.wanted.as_ref() != Some(posed) {
+            (self.wanted, self.wanted_since) = (Some(posed.clone()), Some(Instant::now()));
         }
         self.collect(&mut update);
-        self.start(ctx, motion);
+        self.start(ctx, posed);
         self.choose_pose(&mut update);
         update
     }
@@ -86,7 +99,7 @@ impl ExactJob {
         let Some(running) = &self.running else { return };
         let outcome = running.work.poll();
         if matches!(outcome, Outcome::Running) {
-            let stale = self.wanted.as_ref() != Some(&running.motion);
+            let stale = self.wanted.as_ref() != Some(&running.posed);
             if stale && running.started.elapsed() > BLINK {
                 self.took = running.started.elapsed();
                 self.running = None;
@@ -96,22 +109,22 @@ impl ExactJob {
         let Some(running) = self.running.take() else { return };
         self.took = running.started.elapsed();
         // A failed pose counts as shown: without an exact set, and not tried again.
-        self.shown = Some(running.motion);
+        self.shown = Some(running.posed);
         update.exact = Some(None);
         match outcome {
             Outcome::Done(Ok(exact)) => {
                 update.warnings.clone_from(&exact.warnings);
                 update.exact = Some(Some(Arc::new(exact)));
             }
-            Outcome::Done(Err(ExactError::Motion(error))) => update.warnings.push(error.to_string()),
-            Outcome::Died => update.warnings.push("the exact voxelization ended unexpectedly".to_owned()),
             Outcome::Done(Err(ExactError::Cancelled(_))) | Outcome::Running => {}
+            Outcome::Done(Err(error)) => update.warnings.push(error.to_string()),
+            Outcome::Died => update.warnings.push("the exact voxelization ended unexpectedly".to_owned()),
         }
     }
 
-    fn start(&mut self, ctx: &egui::Context, motion: &MotionSettings) {
+    fn start(&mut self, ctx: &egui::Context, posed: &Posed) {
         let Some(scene) = &self.scene else { return };
-        if self.running.is_some() || self.shown.as_ref() == Some(motion) {
+        if self.running.is_some() || self.shown.as_ref() == Some(posed) {
             return;
         }
         let rested = self.wanted_since.map_or(Duration::ZERO, |since| since.elapsed());
@@ -119,18 +132,20 @@ impl ExactJob {
             ctx.request_repaint_after(REST - rested);
             return;
         }
-        let (scene, posed) = (Arc::clone(scene), motion.clone());
-        let work = Background::start(ctx, move |progress| scene.exact(&posed, progress));
-        self.running = Some(Running { motion: motion.clone(), started: Instant::now(), work });
+        let (scene, of_job) = (Arc::clone(scene), posed.clone());
+        let work = Background::start(ctx, move |progress| {
+            scene.exact(&of_job.motion, &scene.hidden(&of_job.visibility)?, progress)
+        });
+        self.running = Some(Running { posed: posed.clone(), started: Instant::now(), work });
     }
 
     fn choose_pose(&mut self, update: &mut ExactUpdate) {
         let Some(shown) = &self.shown else { return };
-        if *shown == update.motion {
+        if *shown == update.posed {
             return;
         }
         if self.follows() {
-            update.motion = shown.clone();
+            update.posed = shown.clone();
         } else {
             self.shown = None;
             update.exact = Some(None);

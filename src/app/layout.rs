@@ -6,6 +6,7 @@ use egui::{Panel, ScrollArea, TextEdit, Ui};
 
 use super::commands::Command;
 use super::panels::top_bar::TopBar;
+use super::panels::tree::TreePanel;
 use super::panels::{self, section};
 use super::{App, shortcuts, theme};
 
@@ -27,6 +28,7 @@ impl eframe::App for App {
             self.settings.motion.time_secs = time_secs;
         }
         egui::CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, clock_secs));
+        self.note_for_undo(clock_secs);
         self.journal.show_toasts(&ctx);
         if self.wake_again(&ctx, clock_secs) {
             self.latency.continues(started);
@@ -54,6 +56,12 @@ impl App {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| commands.extend(self.controls_ui(ui)));
         });
         self.desk.unfolded.controls = open;
+        let mut open = self.desk.unfolded.tree;
+        Panel::left("tree")
+            .default_size(270.0)
+            .size_range(180.0..=640.0)
+            .show_collapsible(ui, &mut open, |ui| commands.extend(self.tree_ui(ui)));
+        self.desk.unfolded.tree = open;
         let mut open = self.desk.unfolded.measurements;
         Panel::right("measurements").default_size(350.0).size_range(260.0..=620.0).show_collapsible(
             ui,
@@ -80,6 +88,16 @@ impl App {
     fn timeline_ui(&self, ui: &mut Ui) -> Vec<Command> {
         let clips = self.prepared().map_or(&[][..], |prepared| &prepared.scene.clips);
         panels::timeline::ui(ui, clips, self.clip(), &self.settings.motion, &self.playback)
+    }
+
+    fn tree_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+        let Some(ready) = &self.scene else {
+            panels::nothing(ui, "No scene is open.");
+            return Vec::new();
+        };
+        let panel =
+            TreePanel { prepared: &ready.prepared, outline: &ready.outline, visibility: &self.settings.visibility };
+        panels::tree::ui(ui, panel, &mut self.desk.tree)
     }
 
     fn controls_ui(&mut self, ui: &mut Ui) -> Vec<Command> {

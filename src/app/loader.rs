@@ -5,9 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::background::{Background, Outcome};
-use crate::prepare::{PrepareError, Prepared, prepare};
+use super::outline::Outline;
+use crate::disk_cache::DiskCache;
+use crate::prepare::{PrepareError, Prepared, Stores, prepare_with};
 use crate::progress::Progress;
-use crate::scene::load::{self, LoadError};
+use crate::scene::load::{self, LoadError, OpenOptions, SceneChoice};
 use crate::scene::{Scene, builtin};
 use crate::settings::Discretization;
 
@@ -15,13 +17,15 @@ use crate::settings::Discretization;
 #[derive(Clone)]
 pub struct Ready {
     pub prepared: Arc<Prepared>,
+    pub outline: Arc<Outline>,
     pub discretization: Discretization,
     /// Another scene than before, not another grid for the same one.
     pub is_new: bool,
 }
 
-#[derive(Default)]
 pub struct Loader {
+    options: OpenOptions,
+    disk: Option<DiskCache>,
     job: Option<Job>,
 }
 
@@ -40,13 +44,32 @@ enum Failure {
 }
 
 impl Loader {
-    /// Opens a file, or a built-in scene by its name.
-    pub fn open(&mut self, ctx: &egui::Context, source: &Path, discretization: Discretization) {
+    /// How files are opened, and where voxels are kept.
+    pub fn new(options: OpenOptions, disk: Option<DiskCache>) -> Self {
+        Self { options, disk, job: None }
+    }
+
+    /// What [`Self::new`] was given.
+    pub fn choices(&self) -> (OpenOptions, Option<DiskCache>) {
+        (self.options.clone(), self.disk.clone())
+    }
+
+    /// Opens a file, or a built-in scene by its name; of several scenes in a file the default one,
+    /// or the one that is chosen.
+    pub fn open(
+        &mut self,
+        ctx: &egui::Context,
+        source: &Path,
+        shown: Option<SceneChoice>,
+        discretization: Discretization,
+    ) {
         let source = source.to_owned();
         let title = format!("Opening {}", file_name(&source));
+        let options = OpenOptions { scene: shown, ..self.options.clone() };
+        let disk = self.disk.clone();
         let work = Background::start(ctx, move |progress| {
-            let scene = Arc::new(open_scene(&source, progress)?);
-            voxelize(scene, discretization, None, progress)
+            let scene = Arc::new(open_scene(&source, &options, progress)?);
+            voxelize(scene, discretization, Stores { reuse: None, disk: disk.as_ref() }, progress)
         });
         self.job = Some(Job { title, discretization, opens: true, work });
     }
@@ -58,8 +81,10 @@ impl Loader {
         }
         let open = Arc::clone(open);
         let title = format!("Voxelizing at {0}³", discretization.grid);
+        let disk = self.disk.clone();
         let work = Background::start(ctx, move |progress| {
-            voxelize(Arc::clone(&open.scene), discretization, Some(&open), progress)
+            let stores = Stores { reuse: Some(&open), disk: disk.as_ref() };
+            voxelize(Arc::clone(&open.scene), discretization, stores, progress)
         });
         self.job = Some(Job { title, discretization, opens: false, work });
     }
@@ -104,10 +129,10 @@ pub fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-fn open_scene(source: &Path, progress: &Progress) -> Result<Scene, Failure> {
+fn open_scene(source: &Path, options: &OpenOptions, progress: &Progress) -> Result<Scene, Failure> {
     let opened = match source.to_str().and_then(builtin::bytes) {
         Some(bytes) => load::open_bytes(&file_name(source), bytes, None, progress),
-        None => load::open(source, progress),
+        None => load::open_with(source, options, progress),
     };
     opened.map_err(|error| match error {
         LoadError::Cancelled { .. } => Failure::Cancelled,
@@ -118,11 +143,14 @@ fn open_scene(source: &Path, progress: &Progress) -> Result<Scene, Failure> {
 fn voxelize(
     scene: Arc<Scene>,
     discretization: Discretization,
-    open: Option<&Prepared>,
+    stores: Stores<'_>,
     progress: &Progress,
 ) -> Result<Ready, Failure> {
-    match prepare(scene, &discretization, open, progress) {
-        Ok(prepared) => Ok(Ready { prepared: Arc::new(prepared), discretization, is_new: open.is_none() }),
+    match prepare_with(scene, &discretization, stores, progress) {
+        Ok(prepared) => {
+            let outline = Arc::new(Outline::new(&prepared));
+            Ok(Ready { prepared: Arc::new(prepared), outline, discretization, is_new: stores.reuse.is_none() })
+        }
         Err(PrepareError::Cancelled(_)) => Err(Failure::Cancelled),
         Err(error) => Err(Failure::Cause(error.to_string())),
     }

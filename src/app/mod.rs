@@ -20,15 +20,19 @@ mod latency;
 mod layout;
 mod legend;
 mod loader;
+mod mentions;
 mod opening;
+mod outline;
 mod panels;
 mod picture;
 mod playback;
 mod rescue;
 mod screenshots;
+mod selection;
 mod shortcuts;
 mod stage;
 mod theme;
+mod undo;
 mod viewport;
 
 use std::path::Path;
@@ -47,11 +51,14 @@ pub use self::rescue::Kept;
 use self::rescue::Rescue;
 use self::screenshots::Screenshots;
 use self::stage::Stage;
+use self::undo::Undo;
 use self::viewport::Viewport;
+use crate::disk_cache::DiskCache;
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
 use crate::scene::Clip;
-use crate::settings::Settings;
+use crate::scene::load::OpenOptions;
+use crate::settings::{NodeNames, Settings};
 
 /// How often a progress bar is redrawn.
 const PROGRESS_STEP: Duration = Duration::from_millis(100);
@@ -59,16 +66,28 @@ const PROGRESS_STEP: Duration = Duration::from_millis(100);
 /// A device that is lost sooner than this after the last one is not replaced.
 const WORTH_ANOTHER_DEVICE: Duration = Duration::from_secs(10);
 
+/// What a window starts with.
+#[derive(Clone, Debug, Default)]
+pub struct Start {
+    pub settings: Settings,
+    /// What is hidden or shown alone, looked up in the first scene.
+    pub names: NodeNames,
+    /// How files are opened; the scene that is asked for is one of the first file.
+    pub opening: OpenOptions,
+    /// Where voxels are kept; `None`: nowhere.
+    pub disk: Option<DiskCache>,
+}
+
 /// Opens the window on a file, or on a built-in scene by its name, and returns when it is closed.
 /// Without a display, or a GPU for it, the error is one sentence. When the GPU is lost, the window
 /// is opened again on a new device, with scene and settings kept.
-pub fn run(scene: &Path, settings: Settings, adapter: Option<&str>) -> anyhow::Result<()> {
+pub fn run(scene: &Path, start: Start, adapter: Option<&str>) -> anyhow::Result<()> {
     if !device::has_display() {
         return Err(anyhow!("there is no display to open a window on; the subcommands work without one"));
     }
     let rescue = Rescue::default();
     let mut opened = Instant::now();
-    open_window(adapter, &rescue, |context| App::new(context, scene, settings))?;
+    open_window(adapter, &rescue, |context| App::new(context, scene, start))?;
     while let Some(kept) = rescue.take() {
         if opened.elapsed() < WORTH_ANOTHER_DEVICE {
             return Err(anyhow!("{}", kept.cause));
@@ -115,8 +134,13 @@ pub struct App {
     viewport: Viewport,
     screenshots: Screenshots,
     desk: Desk,
+    undo: Undo,
+    /// What the first scene is to hide, by name.
+    names: NodeNames,
     journal: Journal,
     latency: Latency,
+    /// Pixels of the picture.
+    view_px: [u32; 2],
     render: egui_wgpu::RenderState,
     /// When the camera was moved last, on the window's clock.
     moved_at_secs: Option<f64>,
@@ -125,15 +149,16 @@ pub struct App {
 
 impl App {
     /// Takes the window's device, and starts to open the scene. Fails without a GPU.
-    pub fn new(context: &eframe::CreationContext<'_>, scene: &Path, settings: Settings) -> Result<Self, NoApp> {
-        let mut app = Self::empty(context, settings)?;
-        app.open(&context.egui_ctx, scene.to_owned());
+    pub fn new(context: &eframe::CreationContext<'_>, scene: &Path, start: Start) -> Result<Self, NoApp> {
+        let shown = start.opening.scene.clone();
+        let mut app = Self::empty(context, start)?;
+        app.open(&context.egui_ctx, scene.to_owned(), shown);
         Ok(app)
     }
 
     /// Takes the window's device after another was lost, and goes on where that one ended.
     pub fn again(context: &eframe::CreationContext<'_>, kept: Kept) -> Result<Self, NoApp> {
-        let mut app = Self::empty(context, kept.settings)?;
+        let mut app = Self::empty(context, kept.start)?;
         if let Some(scene) = kept.scene {
             app.name_window(&context.egui_ctx, &scene.prepared);
             app.stage.set_prepared(&scene.prepared);
@@ -143,20 +168,23 @@ impl App {
         Ok(app)
     }
 
-    fn empty(context: &eframe::CreationContext<'_>, settings: Settings) -> Result<Self, NoApp> {
+    fn empty(context: &eframe::CreationContext<'_>, start: Start) -> Result<Self, NoApp> {
         let render = context.wgpu_render_state.clone().ok_or("the window has no GPU")?;
         let gpu = Arc::new(Gpu::from_wgpu(&render.adapter, render.device.clone(), render.queue.clone()));
         theme::apply(&context.egui_ctx);
         let mut app = Self {
-            settings,
+            settings: start.settings,
             scene: None,
             playback: Playback::default(),
             stage: Stage::new(Arc::clone(&gpu)),
-            loader: Loader::default(),
+            loader: Loader::new(start.opening, start.disk),
             exact: ExactJob::default(),
             viewport: Viewport::default(),
             screenshots: Screenshots::default(),
             desk: Desk::default(),
+            undo: Undo::default(),
+            names: start.names,
+            view_px: [1, 1],
             journal: Journal::default(),
             latency: Latency::new(render.device.clone()),
             render,

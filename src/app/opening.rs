@@ -4,19 +4,32 @@ use std::path::PathBuf;
 
 use super::journal::Severity;
 use super::loader::{Ready, same_voxels};
+use super::panels::tree::TreeState;
+use super::undo::Undo;
 use super::{App, panels};
 use crate::prepare::Prepared;
+use crate::scene::Scene;
 use crate::scene::camera::camera_from_scene_camera;
-use crate::settings::MotionSettings;
+use crate::scene::load::SceneChoice;
+use crate::settings::{MotionSettings, NodeNames, Visibility};
 
 impl App {
-    pub(super) fn open(&mut self, ctx: &egui::Context, path: PathBuf) {
+    /// `shown`: which of several scenes in the file.
+    pub(super) fn open(&mut self, ctx: &egui::Context, path: PathBuf, shown: Option<SceneChoice>) {
         // A span, a pose and a camera of one scene mean nothing in another.
         if self.scene.is_some() {
             self.settings.discretization.span = None;
         }
-        self.loader.open(ctx, &path, self.settings.discretization);
+        self.loader.open(ctx, &path, shown, self.settings.discretization);
         self.desk.path = path.display().to_string();
+    }
+
+    /// Opens the file again, at another of its scenes.
+    pub(super) fn show_another_scene(&mut self, ctx: &egui::Context, number: usize) {
+        let source = self.prepared().and_then(|prepared| prepared.scene.source.clone());
+        if let Some(source) = source {
+            self.open(ctx, source, Some(SceneChoice::Number(number)));
+        }
     }
 
     pub(super) fn cancel_loading(&mut self) {
@@ -39,6 +52,7 @@ impl App {
         match self.loader.poll() {
             Some(Ok(ready)) => self.show_scene(ctx, ready),
             Some(Err(cause)) => {
+                self.names = NodeNames::default();
                 self.keep_open_scene();
                 self.journal.tell(Severity::Error, cause);
             }
@@ -64,13 +78,19 @@ impl App {
             if self.scene.is_some() {
                 self.settings.motion = MotionSettings::default();
                 self.settings.look.camera = None;
+                self.settings.visibility = Visibility::default();
                 self.playback.pause();
             }
+            self.hide_named(&prepared.scene);
+            self.desk.tree = TreeState::default();
+            self.undo = Undo::default();
             self.name_window(ctx, prepared);
             let name = &prepared.scene.name;
             let count = panels::grouped(prepared.voxel_count());
-            self.journal
-                .note(Severity::Info, format!("Opened {name}: {count} voxels in {:.0} ms.", prepared.voxelize_ms));
+            self.journal.note(
+                Severity::Info,
+                format!("Opened {name}: {count} voxels in {:.0} ms; {}.", prepared.voxelize_ms, prepared.origins),
+            );
             for warning in &prepared.warnings {
                 self.journal.note(Severity::Warning, warning);
             }
@@ -80,6 +100,19 @@ impl App {
         self.scene = Some(ready);
         if opens_with_its_camera {
             self.look_through(0);
+        }
+    }
+
+    /// Looks up what the command line and the settings hide; what the scene does not have hides nothing.
+    fn hide_named(&mut self, scene: &Scene) {
+        let visibility = &mut self.settings.visibility;
+        let applied = std::mem::take(&mut self.names).apply(scene, visibility);
+        match applied.and_then(|notes| visibility.shown_nodes(scene).map(|_| notes)) {
+            Ok(notes) => notes.into_iter().for_each(|note| self.journal.note(Severity::Warning, note)),
+            Err(error) => {
+                *visibility = Visibility::default();
+                self.journal.tell(Severity::Error, error.to_string());
+            }
         }
     }
 

@@ -2,6 +2,7 @@
 
 use egui::{Align2, FontId, Rect, Ui, vec2};
 
+use super::exact_job::Posed;
 use super::journal::Severity;
 use super::{App, PROGRESS_STEP, exact_job, legend, theme, viewport};
 use crate::gpu::GpuTexture;
@@ -12,6 +13,7 @@ impl App {
     pub(super) fn picture_ui(&mut self, ui: &mut Ui, clock_secs: f64) {
         let rect = ui.available_rect_before_wrap();
         let full_px = viewport::size_px(ui, rect, 1);
+        self.view_px = full_px;
         let camera = self.camera(full_px);
         let (settings, size_px) = self.wanted_picture(ui, full_px, clock_secs);
         if self.scene.is_some()
@@ -19,6 +21,9 @@ impl App {
         {
             self.journal.tell(Severity::Error, error);
             self.screenshots.give_up();
+        }
+        for sentence in self.stage.take_newly_left_out() {
+            self.journal.note(Severity::Warning, sentence);
         }
         self.save_screenshot(ui.ctx(), &settings, full_px);
         let response = self.viewport.ui(ui, &self.render, self.stage.picture());
@@ -33,7 +38,7 @@ impl App {
     }
 
     /// What the camera of the settings is when it frames everything.
-    fn camera(&self, full_px: [u32; 2]) -> OrbitCamera {
+    pub(super) fn camera(&self, full_px: [u32; 2]) -> OrbitCamera {
         self.settings.look.camera.unwrap_or_else(|| {
             let mut camera = OrbitCamera::default();
             let aspect = f64::from(full_px[0]) / f64::from(full_px[1]);
@@ -51,8 +56,8 @@ impl App {
             let wanted = &mut settings.discretization;
             (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);
             let looked_at = settings.look.accuracy || settings.look.view == View::Ghost;
-            let update = self.exact.update(ui.ctx(), &ready.prepared, &settings.motion, looked_at);
-            settings.motion = update.motion;
+            let update = self.exact.update(ui.ctx(), &ready.prepared, &Posed::of(&settings), looked_at);
+            (settings.motion, settings.visibility) = (update.posed.motion, update.posed.visibility);
             if let Some(exact) = update.exact {
                 self.stage.set_exact(exact);
             }
@@ -76,7 +81,8 @@ impl App {
         }
         let Some(ready) = &self.scene else { return self.screenshots.give_up() };
         let ready_px = self.stage.picture().map(GpuTexture::size_px);
-        if ready_px != Some(full_px) || self.exact.fraction().is_some() {
+        let is_ready = ready_px == Some(full_px) || self.stage.engine.shows_nothing();
+        if !is_ready || self.exact.fraction().is_some() {
             return;
         }
         match self.stage.engine.read_image() {
@@ -109,8 +115,15 @@ impl App {
         } else if self.scene.is_none() {
             let text = if self.loader.progress().is_some() { "Opening…" } else { "No scene is open" };
             painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(15.0), theme::WEAK);
+        } else if self.stage.engine.shows_nothing() {
+            let text = if self.settings.visibility.shows_all() {
+                "Nothing of this scene is in the grid"
+            } else {
+                "What is shown is not in the grid; Alt+H shows everything"
+            };
+            painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(15.0), theme::WEAK);
         }
-        let hint = "drag: orbit   right drag: pan   wheel: zoom   F: frame all";
+        let hint = "drag: orbit   right drag: pan   wheel: zoom   F: frame";
         legend::caption(&painter, rect.left_bottom() + vec2(14.0, -10.0), Align2::LEFT_BOTTOM, hint);
         let coarse = if size_px == full_px { "" } else { ", coarse" };
         let size = format!("{} × {} px{coarse}", size_px[0], size_px[1]);

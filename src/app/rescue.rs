@@ -3,13 +3,13 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::App;
 use super::loader::Ready;
-use crate::settings::Settings;
+use super::{App, Start};
+use crate::settings::NodeNames;
 
 /// Scene and settings of a window that lost its GPU.
 pub struct Kept {
-    pub(super) settings: Settings,
+    pub(super) start: Start,
     pub(super) scene: Option<Ready>,
     /// One sentence.
     pub(super) cause: String,
@@ -39,7 +39,9 @@ impl App {
             return false;
         }
         let cause = "the GPU was lost".to_owned();
-        self.rescue.leave(Kept { settings: self.settings.clone(), scene: self.scene.clone(), cause });
+        let (opening, disk) = self.loader.choices();
+        let start = Start { settings: self.settings.clone(), names: NodeNames::default(), opening, disk };
+        self.rescue.leave(Kept { start, scene: self.scene.clone(), cause });
         ctx.graphics_mut(|painted| *painted = Default::default());
         ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         true

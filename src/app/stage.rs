@@ -26,6 +26,10 @@ pub struct Stage {
     /// Of the last octree that was finished.
     pub octree: Option<OctreeReport>,
     pub accuracy: Option<AccuracyReport>,
+    /// Objects that the last pose asked for cannot show, a sentence each.
+    left_out: Vec<String>,
+    /// Those of them that the pose before could show.
+    newly_left_out: Vec<String>,
     state: State,
     /// What the engine was asked for last.
     asked: Option<(Settings, [u32; 2])>,
@@ -55,6 +59,8 @@ impl Stage {
             plan: FramePlan::default(),
             octree: None,
             accuracy: None,
+            left_out: Vec::new(),
+            newly_left_out: Vec::new(),
             state: State::Idle,
             asked: None,
             ms_per_pixel: 0.0,
@@ -67,6 +73,7 @@ impl Stage {
         self.engine.set_prepared(Some(Arc::clone(prepared)));
         (self.state, self.asked, self.finished) = (State::Idle, None, None);
         (self.octree, self.accuracy) = (None, None);
+        self.left_out.clear();
     }
 
     pub fn set_exact(&mut self, exact: Option<Arc<ExactVoxels>>) {
@@ -90,7 +97,13 @@ impl Stage {
                     self.finish();
                 }
             }
-            Ok(EngineState::Idle) => self.state = State::Idle,
+            Ok(EngineState::Idle) => {
+                self.state = State::Idle;
+                if self.engine.shows_nothing() {
+                    self.plan.clone_from(self.engine.plan());
+                }
+                self.take_results();
+            }
             Err(error) => {
                 self.state = State::Failed { error: error.to_string() };
                 return Err(error.to_string());
@@ -104,7 +117,16 @@ impl Stage {
             return Ok(());
         }
         self.asked = Some((settings.clone(), size_px));
-        self.engine.request(settings, size_px)
+        self.engine.request(settings, size_px)?;
+        let left_out = self.engine.left_out();
+        self.newly_left_out.extend(left_out.iter().filter(|&sentence| !self.left_out.contains(sentence)).cloned());
+        self.left_out = left_out;
+        Ok(())
+    }
+
+    /// Objects left out since this was asked last, a sentence each: said when they leave, not every frame.
+    pub fn take_newly_left_out(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.newly_left_out)
     }
 
     /// How far the frame is that the GPU works on.
@@ -134,16 +156,20 @@ impl Stage {
 
     /// Takes down what the frame has cost.
     fn finish(&mut self) {
-        self.timings = self.engine.timings();
-        self.octree = self.engine.octree_report();
-        self.accuracy = self.engine.accuracy();
+        self.take_results();
         self.history.push(&self.timings, &self.plan);
         let view = self.timings.iter().filter(|timing| timing.kernel.starts_with("view/"));
         let view_ms: f64 = view.map(|timing| timing.ms).sum();
-        self.finished = self.engine.image().cloned();
         if let Some(picture) = &self.finished {
             let [width, height] = picture.size_px().map(f64::from);
             self.ms_per_pixel = view_ms / (width * height);
         }
+    }
+
+    fn take_results(&mut self) {
+        self.timings = self.engine.timings();
+        self.octree = self.engine.octree_report();
+        self.accuracy = self.engine.accuracy();
+        self.finished = self.engine.image().cloned();
     }
 }

@@ -22,6 +22,11 @@ pub const HOLE: Color32 = Color32::from_rgb(236, 84, 74);
 /// Cells that moved voxels reached outside the exact set.
 pub const SPILL: Color32 = Color32::from_rgb(92, 148, 245);
 
+/// Words behind nodes of the scene tree.
+pub const TAG_JOINT: Color32 = Color32::from_rgb(176, 148, 226);
+pub const TAG_CAMERA: Color32 = Color32::from_rgb(120, 170, 230);
+pub const TAG_LIGHT: Color32 = Color32::from_rgb(222, 204, 112);
+
 /// Applies palette and spacing; the window is dark whatever the system's theme.
 pub fn apply(ctx: &egui::Context) {
     ctx.set_theme(Theme::Dark);

@@ -83,7 +83,7 @@ impl Accuracy {
     fn compare_scene(&self, scene: &Path, settings: &Settings, grids: &[u32]) -> anyhow::Result<Vec<Row>> {
         let mut settings = settings.clone();
         settings.discretization.grid = grids[0];
-        let mut session = Session::open(scene, &self.common, &settings)?;
+        let mut session = Session::open(scene, &self.common, &mut settings)?;
         let poses = self.poses(&session, &settings.motion)?;
         let mut rows = Vec::new();
         for &grid in grids {

@@ -95,7 +95,7 @@ impl Bench {
         settings.look.view = View::Voxels;
         settings.check().map_err(Usage)?;
         // Voxelization is measured too, so its results are not looked for on the disk.
-        let mut session = Session::open_with(&self.scene, &self.common, None, &settings)?;
+        let mut session = Session::open_with(&self.scene, &self.common, None, &mut settings)?;
         let report = self.measure(&mut session, settings)?;
         if self.json { output::json(&report) } else { output::result(&report.text()) }
     }

@@ -1,5 +1,6 @@
 //! `octolume info`: what is in a scene, and what its octree holds.
 
+use std::collections::HashSet;
 use std::path::PathBuf;
 
 use bytesize::ByteSize;
@@ -36,9 +37,15 @@ struct Facts {
     materials: usize,
     textures: usize,
     skins: usize,
+    /// Nodes that are joints of a skin, each once.
     joints: usize,
     clips: Vec<ClipFacts>,
+    /// The file's scenes, and which of them is shown.
+    scenes: Vec<String>,
+    shown_scene: Option<usize>,
     extensions: Vec<String>,
+    /// What opening the file took.
+    memory_bytes: u64,
     warnings: Vec<String>,
     /// Over all animation, scene units; none for a scene without a vertex.
     bounds: Option<Bounds>,
@@ -68,7 +75,7 @@ impl Info {
         self.moment.apply(&mut settings);
         settings.look.view = View::Voxels;
         settings.check().map_err(Usage)?;
-        let mut session = Session::open(&self.scene, &self.common, &settings)?;
+        let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         session.run(&settings, NO_PICTURE)?;
         let levels = session.engine.octree_report().map(|report| report.levels).unwrap_or_default();
         let facts = Facts::new(&session.prepared, &settings, levels);
@@ -87,13 +94,16 @@ impl Facts {
             materials: scene.materials.len(),
             textures: scene.textures.len(),
             skins: scene.skins.len(),
-            joints: scene.skins.iter().map(|skin| skin.joints.len()).sum(),
+            joints: scene.skins.iter().flat_map(|skin| &skin.joints).collect::<HashSet<_>>().len(),
             clips: scene
                 .clips
                 .iter()
                 .map(|clip| ClipFacts { name: clip.name.clone(), seconds: clip.duration_secs })
                 .collect(),
+            scenes: scene.scene_names.clone(),
+            shown_scene: scene.shown_scene,
             extensions: scene.extensions.clone(),
+            memory_bytes: scene.memory_bytes,
             warnings: prepared.warnings.clone(),
             bounds: prepared.bounds.map(Bounds::from),
             grid: settings.discretization.grid,
@@ -109,6 +119,7 @@ impl Facts {
             format!("{}: {}, {}", self.name, count(self.triangles, "triangle"), count(self.objects, "object")),
             format!("{}, {}", count(self.materials, "material"), count(self.textures, "texture")),
             format!("{}, {}", count(self.skins, "skin"), count(self.joints, "joint")),
+            format!("opening took {}", ByteSize(self.memory_bytes).display().iec()),
             format!("grid of {} cells of {} units, {} voxels in the caches", self.grid, self.span, self.voxels),
         ];
         lines.extend(self.clips.iter().map(|clip| format!("clip \"{}\", {:.3} s", clip.name, clip.seconds)));

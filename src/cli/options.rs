@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use bytesize::ByteSize;
 use clap::Args;
 use octolume::data::voxel_cache::VoxelizationMode;
 use octolume::disk_cache::DiskCache;
 use octolume::export;
 use octolume::scene::OrbitCamera;
-use octolume::settings::{Discretization, Filter, Settings, VoxelAnchor};
+use octolume::scene::load::{OpenOptions, SceneChoice};
+use octolume::settings::{Discretization, Filter, NodeNames, Settings, VoxelAnchor};
 
 use super::{Usage, values};
 
@@ -50,12 +52,31 @@ pub struct Common {
     /// The camera's vertical field of view
     #[arg(long, value_name = "DEGREES", value_parser = values::number, allow_hyphen_values = true, requires = "eye")]
     fov: Option<f64>,
+    /// Hides nodes with everything below them, by name; all of the name if several have it. Repeatable
+    #[arg(long, value_name = "NAME")]
+    hide: Vec<String>,
+    /// Shows only these nodes with everything below them, by name; all of the name if several have it. Repeatable
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
     /// The first GPU adapter whose name contains this
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
     /// Neither reads voxels from the disk cache nor keeps any there
     #[arg(long)]
     no_cache: bool,
+    #[command(flatten)]
+    opening: Opening,
+}
+
+/// What of a file is opened, and at what price.
+#[derive(Debug, Args)]
+struct Opening {
+    /// Which of the file's scenes is shown, by name or number from 0; otherwise its default scene
+    #[arg(long = "scene", id = "shown scene", value_name = "NAME|NUMBER")]
+    scene: Option<String>,
+    /// What opening a file may take, such as 512MiB; otherwise 4GiB
+    #[arg(long, value_name = "SIZE")]
+    memory_budget: Option<ByteSize>,
 }
 
 /// Which moment of the animation, where there is just one.
@@ -82,9 +103,22 @@ impl Common {
         Ok(settings)
     }
 
+    /// How a file is opened.
+    pub fn open_options(&self) -> OpenOptions {
+        let mut options =
+            OpenOptions { scene: self.opening.scene.clone().map(SceneChoice::Named), ..OpenOptions::default() };
+        set(&mut options.memory_budget_bytes, self.opening.memory_budget.map(|size| size.0));
+        options
+    }
+
     /// Where voxels are kept from one opening to the next, if they are.
     pub fn disk_cache(&self) -> Option<DiskCache> {
         if self.no_cache { None } else { DiskCache::standard() }
+    }
+
+    /// The nodes that options name: which they are depends on the scene.
+    pub fn node_names(&self) -> NodeNames {
+        NodeNames { hide: self.hide.clone(), only: self.only.clone() }
     }
 
     /// The settings that the file named by `--settings` holds, and its size if it is a picture.

@@ -50,7 +50,7 @@ impl Plan {
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
         settings.check().map_err(Usage)?;
-        let mut session = Session::open(&self.scene, &self.common, &settings)?;
+        let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         session.engine.request(&settings, NO_PICTURE)?;
         if let Some(change) = self.after {
             session.engine.run_to_end()?;
@@ -71,7 +71,7 @@ impl Plan {
 
 impl Change {
     fn apply(self, settings: &mut Settings) {
-        let Settings { discretization, motion, look } = settings;
+        let Settings { discretization, motion, look, .. } = settings;
         match self {
             Self::Still => {}
             Self::Camera => look.camera.get_or_insert_default().orbit(0.1, 0.0),

@@ -56,7 +56,7 @@ impl Render {
     pub fn run(&self) -> anyhow::Result<()> {
         let mut settings = self.settings()?;
         let size_px = self.size_px()?;
-        let mut session = Session::open(&self.scene, &self.common, &settings)?;
+        let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         for (file, time_secs) in self.pictures(&settings) {
             settings.motion.time_secs = time_secs;
             draw(&mut session, &settings, size_px, &file)?;

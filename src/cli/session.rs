@@ -8,7 +8,8 @@ use octolume::engine::Engine;
 use octolume::gpu::Gpu;
 use octolume::prepare::{Prepared, Stores, prepare_with};
 use octolume::progress::Progress;
-use octolume::scene::{Scene, builtin, load};
+use octolume::scene::load::{self, OpenOptions};
+use octolume::scene::{Scene, builtin};
 use octolume::settings::Settings;
 
 use super::options::Common;
@@ -28,8 +29,9 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name.
-    pub fn open(scene: &Path, common: &Common, settings: &Settings) -> anyhow::Result<Self> {
+    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name. What the
+    /// options hide is added to the settings.
+    pub fn open(scene: &Path, common: &Common, settings: &mut Settings) -> anyhow::Result<Self> {
         Self::open_with(scene, common, common.disk_cache(), settings)
     }
 
@@ -38,10 +40,10 @@ impl Session {
         scene: &Path,
         common: &Common,
         disk: Option<DiskCache>,
-        settings: &Settings,
+        settings: &mut Settings,
     ) -> anyhow::Result<Self> {
         let mut engine = take_gpu(common)?;
-        let prepared = prepare_only(scene, disk.as_ref(), settings)?;
+        let prepared = prepare_only(scene, common, disk.as_ref(), settings)?;
         engine.set_prepared(Some(Arc::clone(&prepared)));
         Ok(Self { prepared, engine, disk })
     }
@@ -64,18 +66,28 @@ impl Session {
     /// Voxelizes the posed mesh exactly: the truth for ghost and accuracy.
     pub fn take_exact(&mut self, settings: &Settings) -> anyhow::Result<()> {
         let prepared = &self.prepared;
-        let exact =
-            output::with_progress("voxelizing the posed mesh", |progress| prepared.exact(&settings.motion, progress))?;
+        let hidden = prepared.hidden(&settings.visibility)?;
+        let exact = output::with_progress("voxelizing the posed mesh", |progress| {
+            prepared.exact(&settings.motion, &hidden, progress)
+        })?;
         output::warnings(&exact.warnings);
         self.engine.set_exact(Some(Arc::new(exact)));
         Ok(())
     }
 }
 
-/// Opens and voxelizes a scene, and says what there is to know about it.
-pub fn prepare_only(scene: &Path, disk: Option<&DiskCache>, settings: &Settings) -> anyhow::Result<Arc<Prepared>> {
-    let stores = Stores { reuse: None, disk };
-    let prepared = voxelize(Arc::new(open_scene(scene)?), settings, stores)?;
+/// Opens and voxelizes a scene, and says what there is to know about it. What the options hide is
+/// added to the settings.
+pub fn prepare_only(
+    scene: &Path,
+    common: &Common,
+    disk: Option<&DiskCache>,
+    settings: &mut Settings,
+) -> anyhow::Result<Arc<Prepared>> {
+    let scene = open_scene(scene, &common.open_options())?;
+    output::warnings(&common.node_names().apply(&scene, &mut settings.visibility)?);
+    settings.visibility.shown_nodes(&scene)?;
+    let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;
     output::warnings(&prepared.warnings);
     if disk.is_some() {
         output::message(&format!("{}, in {:.0} ms", prepared.origins, prepared.voxelize_ms));
@@ -85,12 +97,12 @@ pub fn prepare_only(scene: &Path, disk: Option<&DiskCache>, settings: &Settings)
 }
 
 /// Opens a built-in scene by its name, or a file.
-fn open_scene(scene: &Path) -> anyhow::Result<Scene> {
+fn open_scene(scene: &Path, options: &OpenOptions) -> anyhow::Result<Scene> {
     let progress = Progress::default();
     let name = scene.to_str().unwrap_or_default();
     Ok(match builtin::bytes(name) {
         Some(bytes) => load::open_bytes(name, bytes, None, &progress)?,
-        None => output::with_progress("opening", |progress| load::open(scene, progress))?,
+        None => output::with_progress("opening", |progress| load::open_with(scene, options, progress))?,
     })
 }
 

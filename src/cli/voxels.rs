@@ -47,22 +47,24 @@ impl Voxels {
         settings.check().map_err(Usage)?;
         let (voxels, grid) = match self.source {
             Source::Moved => {
-                let mut session = Session::open(&self.scene, &self.common, &settings)?;
+                let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
                 session.run(&settings, NO_PICTURE)?;
                 (session.engine.read_voxels()?, session.prepared.grid)
             }
-            Source::Exact => self.exact(&settings)?,
+            Source::Exact => self.exact(&mut settings)?,
         };
         write(&self.output, &voxels, &grid)?;
         Ok(())
     }
 
-    fn exact(&self, settings: &Settings) -> anyhow::Result<(WorldVoxels, Grid)> {
-        let prepared = prepare_only(&self.scene, self.common.disk_cache().as_ref(), settings)?;
-        let voxels = output::with_progress("voxelizing the posed mesh", |progress| {
-            prepared.exact_voxels(&settings.motion, progress)
+    fn exact(&self, settings: &mut Settings) -> anyhow::Result<(WorldVoxels, Grid)> {
+        let prepared = prepare_only(&self.scene, &self.common, self.common.disk_cache().as_ref(), settings)?;
+        let hidden = prepared.hidden(&settings.visibility)?;
+        let surface = output::with_progress("voxelizing the posed mesh", |progress| {
+            prepared.exact_voxels(&settings.motion, &hidden, progress)
         })?;
-        Ok((full_cells(&voxels), prepared.grid))
+        output::warnings(&surface.warnings);
+        Ok((full_cells(&surface.voxels), prepared.grid))
     }
 
     fn writer(&self) -> Result<Write, Usage> {

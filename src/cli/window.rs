@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+#[cfg(feature = "gui")]
+use octolume::app::Start;
+
 use super::options::{Common, Moment};
 
 #[cfg(feature = "gui")]
@@ -9,7 +12,8 @@ pub fn run(scene: &Path, common: &Common, moment: &Moment) -> anyhow::Result<()>
     let mut settings = common.settings()?;
     moment.apply(&mut settings);
     settings.check().map_err(super::Usage)?;
-    octolume::app::run(scene, settings, common.adapter.as_deref())
+    let (names, opening, disk) = (common.node_names(), common.open_options(), common.disk_cache());
+    octolume::app::run(scene, Start { settings, names, opening, disk }, common.adapter.as_deref())
 }
 
 #[cfg(not(feature = "gui"))]

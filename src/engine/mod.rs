@@ -24,7 +24,7 @@ use crate::data::pages::SegmentOrder;
 use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, GpuTexture, KernelTiming};
 use crate::plan::{self, Changes, FramePlan, SceneFacts};
 use crate::prepare::{ExactVoxels, FrameMatrices, MotionError, Prepared};
-use crate::settings::{ColorBy, Filter, Look, Settings, View};
+use crate::settings::{ColorBy, Filter, Hidden, Look, Settings, View, VisibilityError};
 use crate::stages::fill::number_objects::OBJECT_MASK;
 use crate::stages::view::Picture;
 use crate::stages::view::mesh_scene::MeshScene;
@@ -42,6 +42,8 @@ pub enum EngineError {
     Gpu(#[from] GpuError),
     #[error(transparent)]
     Motion(#[from] MotionError),
+    #[error(transparent)]
+    Visibility(#[from] VisibilityError),
     #[error("no scene is open")]
     NoScene,
     #[error("{scene} has {objects} objects, and colour by object can tell {OBJECT_MASK} apart; choose another colour")]
@@ -84,7 +86,18 @@ struct Wanted {
     settings: Settings,
     size_px: [u32; 2],
     frame: FrameMatrices,
+    hidden: Hidden,
     facts: SceneFacts,
+}
+
+impl Wanted {
+    /// Nothing of the scene is in the picture: all of it is hidden, or outside the grid.
+    fn shows_nothing(&self) -> bool {
+        match self.settings.look.view {
+            View::Mesh => self.facts.triangles == 0,
+            View::Voxels | View::Ghost => self.facts.voxels() == 0,
+        }
+    }
 }
 
 /// What the results on the GPU were made from; `None` where there is none, or it is out of date.
@@ -98,7 +111,7 @@ struct Done {
     compared: Option<Arc<ExactVoxels>>,
     view: Option<(Look, [u32; 2])>,
     /// What the mesh view last drew.
-    mesh_frame: Option<FrameMatrices>,
+    mesh_frame: Option<(FrameMatrices, Hidden)>,
     exact_masks: Option<Arc<ExactVoxels>>,
 }
 
@@ -166,15 +179,26 @@ impl Engine {
     pub fn request(&mut self, settings: &Settings, size_px: [u32; 2]) -> Result<(), EngineError> {
         let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
         check_object_numbers(prepared, &settings.look)?;
-        let frame = prepared.fold(&settings.motion, settings.discretization.anchor)?;
-        let facts = scene_on_gpu::facts(prepared, &frame);
+        let hidden = prepared.hidden(&settings.visibility)?;
+        let frame = prepared.fold(&settings.motion, settings.discretization.anchor, &hidden)?;
+        let facts = scene_on_gpu::facts(prepared, &frame, &hidden);
         // A picture has at least one pixel.
         let size_px = size_px.map(|size| size.max(1));
-        self.wanted = Some(Wanted { settings: settings.clone(), size_px, frame, facts });
+        self.wanted = Some(Wanted { settings: settings.clone(), size_px, frame, hidden, facts });
         if self.running.is_none() {
             self.make_plan();
         }
         Ok(())
+    }
+
+    /// Nothing of the scene is in the picture that was requested: all of it is hidden, or outside the grid.
+    pub fn shows_nothing(&self) -> bool {
+        self.wanted.as_ref().is_some_and(Wanted::shows_nothing)
+    }
+
+    /// The octree that is built is of what was requested, which has voxels in the grid.
+    fn has_octree(&self) -> bool {
+        self.done.octree.is_some() && self.wanted.as_ref().is_some_and(|wanted| wanted.facts.voxels() > 0)
     }
 
     /// Objects that the requested pose cannot show, a sentence each.
@@ -199,8 +223,9 @@ impl Engine {
             (Some(exact), Some(done)) => !Arc::ptr_eq(exact, done),
             (exact, done) => exact.is_some() != done.is_some(),
         };
-        let mesh_moved =
-            wanted.settings.look.view == View::Mesh && self.done.mesh_frame.as_ref() != Some(&wanted.frame);
+        let drawn = self.done.mesh_frame.as_ref();
+        let mesh_moved = wanted.settings.look.view == View::Mesh
+            && drawn.is_none_or(|(frame, hidden)| *frame != wanted.frame || *hidden != wanted.hidden);
         Changes {
             caches: self.scene.is_none(),
             residents: of_frame.residents,

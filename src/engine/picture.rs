@@ -8,7 +8,7 @@ use crate::data::octree::{OctreeParams, Slot};
 use crate::gpu::{GpuError, GpuTexture, Recorder};
 use crate::scene::OrbitCamera;
 use crate::scene::camera::camera_from_scene_camera;
-use crate::settings::View;
+use crate::settings::{Hidden, View};
 use crate::stages::build::COUNTERS;
 use crate::stages::build::reduce::{self, Masks};
 use crate::stages::view::camera::PixelRays;
@@ -16,8 +16,9 @@ use crate::stages::view::ghost::{self, LeafSet};
 use crate::stages::view::march::{self, MarchedOctree};
 use crate::stages::view::mesh::{self, MeshTarget, MeshView};
 use crate::stages::view::mesh_scene::MeshScene;
+use crate::stages::view::palette::gamma_from_linear;
 use crate::stages::view::picture::depth_buffer;
-use crate::stages::view::{GHOST_COLORS, Palette, Picture, ViewParams, shown_color};
+use crate::stages::view::{BACKGROUND, GHOST_COLORS, Palette, Picture, ViewParams, shown_color};
 
 /// The masks above the exact leaves. Blocks and counters are by-products nobody reads.
 #[derive(Debug, Default)]
@@ -79,16 +80,17 @@ impl Engine {
         let depth = self.mesh_depth(wanted.size_px)?;
         let missing = || GpuError::Missing { label: "mesh vertices".to_owned() };
         let mesh = self.mesh.as_mut().ok_or_else(missing)?;
-        let seen = MeshView { camera: &camera, grid: &prepared.grid, look: &wanted.settings.look };
+        let seen =
+            MeshView { camera: &camera, grid: &prepared.grid, look: &wanted.settings.look, hidden: &wanted.hidden };
         Ok(mesh::record(&self.gpu, frame, mesh, &pose, seen, MeshTarget { picture, depth: &depth })?)
     }
 
     /// Uploads what the mesh view draws, for about `budget`; says whether all is there.
-    pub(super) fn upload_mesh(&mut self, budget: Duration) -> Result<bool, EngineError> {
+    pub(super) fn upload_mesh(&mut self, hidden: &Hidden, budget: Duration) -> Result<bool, EngineError> {
         let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
         let objects = || prepared.objects.iter().zip(0..).map(|(object, number)| (number, object.object.clone()));
         let mesh = self.mesh.get_or_insert_with(|| MeshScene::new(Arc::clone(&prepared.scene), objects().collect()));
-        Ok(mesh.upload(&self.gpu, budget)?)
+        Ok(mesh.upload(&self.gpu, hidden, budget)?)
     }
 
     fn mesh_depth(&mut self, size_px: [u32; 2]) -> Result<GpuTexture, GpuError> {
@@ -135,14 +137,24 @@ impl Engine {
         }))
     }
 
-    /// The picture, gamma-encoded sRGB; `None` before the first.
+    /// The picture, gamma-encoded sRGB; `None` before the first, and where nothing is to be seen.
     pub fn image(&self) -> Option<&GpuTexture> {
-        self.picture.as_ref().map(|picture| &picture.color)
+        let picture = self.picture.as_ref().filter(|_| !self.shows_nothing());
+        picture.map(|picture| &picture.color)
     }
 
-    /// The picture's pixels. Blocks until they are here.
+    /// The picture's pixels, all background where nothing is to be seen. Blocks until they are here.
     pub fn read_image(&self) -> Result<image::RgbaImage, EngineError> {
+        if let Some(wanted) = self.wanted.as_ref().filter(|wanted| wanted.shows_nothing()) {
+            let [width, height] = wanted.size_px;
+            return Ok(image::RgbaImage::from_pixel(width, height, background_pixel()));
+        }
         let missing = || GpuError::Missing { label: "picture".to_owned() };
         Ok(self.picture.as_ref().ok_or_else(missing)?.read(&self.gpu)?)
     }
+}
+
+fn background_pixel() -> image::Rgba<u8> {
+    let [r, g, b] = BACKGROUND.map(|channel| (gamma_from_linear(f64::from(channel)) * 255.0).round() as u8);
+    image::Rgba([r, g, b, u8::MAX])
 }

@@ -27,7 +27,7 @@ impl Engine {
     /// The leaves of the octree that is shown. Blocks until they are here.
     pub fn read_voxels(&self) -> Result<WorldVoxels, EngineError> {
         let mut voxels = WorldVoxels::default();
-        if self.done.octree.is_none() {
+        if !self.has_octree() {
             return Ok(voxels);
         }
         let octree = &self.shown.params;

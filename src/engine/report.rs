@@ -80,9 +80,11 @@ impl BuiltOctree {
 }
 
 impl Engine {
-    /// Of the octree that is shown; `None` while there is none.
+    /// Of the octree that is shown; `None` while there is none, or nothing for it to hold.
     pub fn octree_report(&self) -> Option<OctreeReport> {
-        self.done.octree?;
+        if !self.has_octree() {
+            return None;
+        }
         let voxels = u64::from(self.voxel_threads()?);
         let levels = self.shown.levels();
         let kept_weight = voxels * u64::from(FULL_WEIGHT) - self.shown.clipped_weight;
@@ -99,7 +101,7 @@ impl Engine {
 
     /// Both filters side by side, as far as they are built for the pose that is shown.
     pub fn accuracy(&self) -> Option<AccuracyReport> {
-        let (shown_filter, _) = self.done.octree?;
+        let (shown_filter, _) = self.done.octree.filter(|_| self.has_octree())?;
         let compared = self.done.compared.as_ref();
         let shown = self.filter_report(&self.shown, compared.and(self.comparison.shown));
         let other = self.done.other.and_then(|_| self.filter_report(&self.other, compared.and(self.comparison.other)));

@@ -8,6 +8,7 @@ use crate::data::pages::{Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
 use crate::gpu::{Gpu, GpuBuffer, GpuError};
 use crate::plan::SceneFacts;
 use crate::prepare::{FrameMatrices, Prepared};
+use crate::settings::Hidden;
 use crate::stages::transform::{Matrix3x4, MovingVoxels, Part};
 
 #[derive(Debug)]
@@ -36,14 +37,15 @@ pub struct FrameChanges {
     pub skinned_poses: bool,
 }
 
-/// Counts a frame's voxels in the grid.
-pub fn facts(prepared: &Prepared, frame: &FrameMatrices) -> SceneFacts {
+/// Counts a frame's voxels in the grid, and the triangles of what is not hidden.
+pub fn facts(prepared: &Prepared, frame: &FrameMatrices, hidden: &Hidden) -> SceneFacts {
     let mut facts = SceneFacts::default();
     for (part, _) in prepared.parts.iter().zip(&frame.resident).filter(|(_, resident)| **resident) {
         let voxels = part.tile.voxels.len() as u64;
         if prepared.is_skinned(part) { facts.skinned_voxels += voxels } else { facts.rigid_voxels += voxels }
     }
-    let meshes = prepared.objects.iter().map(|object| &prepared.scene.meshes[object.object.mesh]);
+    let shown = (0..).zip(&prepared.objects).filter(|(index, _)| !hidden.contains(*index));
+    let meshes = shown.map(|(_, object)| &prepared.scene.meshes[object.object.mesh]);
     facts.triangles = meshes.map(|mesh| mesh.triangle_count() as u64).sum();
     facts
 }
@@ -77,14 +79,17 @@ impl SceneOnGpu {
     }
 
     pub fn changes(&self, frame: &FrameMatrices) -> FrameChanges {
-        let rigid = |frame: &FrameMatrices| frame.parts.iter().take(self.rigid_parts()).count();
-        let rigid_matrices = rigid(frame).min(frame.matrices.len());
-        let same_count = frame.matrices.len() == self.frame.matrices.len();
+        let (rigid, skinned) = self.rigid_and_skinned(frame);
+        let (old_rigid, old_skinned) = self.rigid_and_skinned(&self.frame);
         FrameChanges {
             residents: frame.resident != self.frame.resident,
-            rigid_poses: !same_count || frame.matrices[..rigid_matrices] != self.frame.matrices[..rigid_matrices],
-            skinned_poses: !same_count || frame.matrices[rigid_matrices..] != self.frame.matrices[rigid_matrices..],
+            rigid_poses: rigid != old_rigid,
+            skinned_poses: skinned != old_skinned,
         }
+    }
+
+    fn rigid_and_skinned<'a>(&self, frame: &'a FrameMatrices) -> (&'a [Matrix3x4], &'a [Matrix3x4]) {
+        frame.matrices.split_at(self.rigid_parts().min(frame.matrices.len()))
     }
 
     /// Rigid parts come first, with one matrix each.

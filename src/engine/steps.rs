@@ -133,7 +133,7 @@ impl Engine {
     pub(super) fn run_slice(&mut self, budget: Duration) -> Result<EngineState, EngineError> {
         let Some(mut running) = self.running.take() else { return Ok(EngineState::Idle) };
         let Some(&step) = running.steps.front() else { return Ok(EngineState::Idle) };
-        if step == Step::UploadMesh && !self.upload_mesh(budget)? {
+        if step == Step::UploadMesh && !self.upload_mesh(&running.wanted.hidden, budget)? {
             let state = running.state(0.0);
             self.running = Some(running);
             return Ok(state);
@@ -349,7 +349,8 @@ impl Engine {
     fn picture_finished(&mut self, wanted: &Wanted, took: Vec<KernelTiming>) {
         self.timings.picture = took;
         self.done.view = Some((wanted.settings.look, wanted.size_px));
-        self.done.mesh_frame = (wanted.settings.look.view == View::Mesh).then(|| wanted.frame.clone());
+        let is_mesh = wanted.settings.look.view == View::Mesh;
+        self.done.mesh_frame = is_mesh.then(|| (wanted.frame.clone(), wanted.hidden.clone()));
     }
 }
 

@@ -123,8 +123,19 @@ impl Gpu {
             return Err(GpuError::Lost(cause));
         }
         match lock(&self.health.error).take() {
-            Some(cause) => Err(self.refused("a command", &cause)),
+            Some(cause) => Err(self.lost_or_refused("a command", &cause)),
             None => Ok(()),
+        }
+    }
+
+    /// A lost device refuses everything, and its loss is told only to who polls: then the loss is what
+    /// went wrong.
+    fn lost_or_refused(&self, what: &str, cause: &str) -> GpuError {
+        // What else this returns is of no use here.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        match lock(&self.health.lost).clone() {
+            Some(cause) => GpuError::Lost(cause),
+            None => self.refused(what, cause),
         }
     }
 
@@ -137,7 +148,7 @@ impl Gpu {
     /// Blocks until everything submitted is done.
     pub fn wait(&self) -> Result<(), GpuError> {
         let waited = self.device.poll(wgpu::PollType::Wait { submission_index: None, timeout: None });
-        waited.map_err(|error| self.refused("waiting", &error.to_string())).and_then(|_| self.check_health())
+        waited.map_err(|error| self.lost_or_refused("waiting", &error.to_string())).and_then(|_| self.check_health())
     }
 
     /// Runs calls of wgpu; what they report becomes an error instead of a panic.
@@ -150,7 +161,7 @@ impl Gpu {
         let result = calls();
         let errors = [validation.pop(), internal.pop(), memory.pop()].map(pollster::block_on);
         match errors.into_iter().flatten().next() {
-            Some(error) => Err(self.refused(what, &one_line(&error))),
+            Some(error) => Err(self.lost_or_refused(what, &one_line(&error))),
             None => Ok(result),
         }
     }

@@ -10,7 +10,7 @@ use crate::data::grid::morton_key;
 use crate::data::packing::{unpack_normal, unpack_rgba8};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{AlphaMode, Pose};
-use crate::settings::MotionSettings;
+use crate::settings::{Hidden, MotionSettings, VisibilityError};
 use crate::stages::voxelize::{self, VoxelizeError, VoxelizeInput, VoxelizePart};
 
 /// Cells that the posed triangles cover.
@@ -32,59 +32,60 @@ pub struct ExactVoxel {
     pub normal: DVec3,
 }
 
+/// The covered cells sorted by Morton key, and a sentence for each object that could not be voxelized.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ExactSurface {
+    pub voxels: Vec<ExactVoxel>,
+    pub warnings: Vec<String>,
+}
+
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExactError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     #[error(transparent)]
     Motion(#[from] MotionError),
+    #[error(transparent)]
+    Visibility(#[from] VisibilityError),
 }
 
 impl Prepared {
     /// Exact voxelization of a pose, in the mode of the caches. Seconds for large scenes.
-    pub fn exact(&self, motion: &MotionSettings, progress: &Progress) -> Result<ExactVoxels, ExactError> {
+    pub fn exact(
+        &self,
+        motion: &MotionSettings,
+        hidden: &Hidden,
+        progress: &Progress,
+    ) -> Result<ExactVoxels, ExactError> {
         let pose = self.pose(motion)?;
-        progress.add_total(self.objects.len() as u64);
-        let per_object = self
-            .objects
-            .par_iter()
-            .map(|object| {
-                let cells = self.posed_cells(object, &pose, progress);
-                progress.advance(1)?;
-                match cells {
-                    Some(Err(VoxelizeError::Cancelled(cancelled))) => Err(cancelled),
-                    cells => Ok((object, cells)),
-                }
-            })
-            .collect::<Result<Vec<_>, Cancelled>>()?;
+        let per_object = self.each_shown(hidden, progress, |object| self.posed_cells(object, &pose, progress))?;
         let words = (1_usize << (3 * self.grid.depth)).div_ceil(32);
         let mut exact = ExactVoxels { bits: vec![0; words], count: 0, warnings: Vec::new() };
-        for (object, cells) in per_object {
+        for cells in per_object {
             match cells {
-                Some(Ok(cells)) => {
-                    cells.iter().filter_map(|cell| self.key_inside(*cell)).for_each(|key| exact.insert(key))
-                }
-                Some(Err(cause)) => exact.warnings.push(format!("object \"{}\": {cause}", object.object.name)),
-                None => exact.warnings.push(format!("object \"{}\" is not at a finite place", object.object.name)),
+                Ok(cells) => cells.iter().filter_map(|cell| self.key_inside(*cell)).for_each(|key| exact.insert(key)),
+                Err(warning) => exact.warnings.push(warning),
             }
         }
         Ok(exact)
     }
 
-    /// The same with albedo and normal, sorted by Morton key.
-    pub fn exact_voxels(&self, motion: &MotionSettings, progress: &Progress) -> Result<Vec<ExactVoxel>, ExactError> {
+    /// The same with albedo and normal.
+    pub fn exact_voxels(
+        &self,
+        motion: &MotionSettings,
+        hidden: &Hidden,
+        progress: &Progress,
+    ) -> Result<ExactSurface, ExactError> {
         let pose = self.pose(motion)?;
-        let caches = self
-            .objects
-            .par_iter()
-            .filter_map(|object| Some((object, self.posed_input(object, &pose)?)))
-            .map(|(_, input)| {
-                progress.add_total(input.work_units());
-                voxelize::voxelize(&input, progress)
-            })
-            .collect::<Vec<_>>();
+        let caches = self.each_shown(hidden, progress, |object| {
+            let input = self.posed_input(object, &pose)?;
+            progress.add_total(input.work_units());
+            Some(voxelize::voxelize(&input, progress))
+        })?;
+        let mut warnings = Vec::new();
         let mut sums: BTreeMap<u32, (f64, [f64; 3], DVec3)> = BTreeMap::new();
-        for cache in caches.into_iter().flatten() {
+        for cache in caches.into_iter().filter_map(|cache| cache.map_err(|warning| warnings.push(warning)).ok()) {
             for (cell, voxel) in cache.cells().zip(&cache.voxels) {
                 let Some(key) = self.key_inside(cell) else { continue };
                 let sum = sums.entry(key).or_default();
@@ -94,13 +95,37 @@ impl Prepared {
                 sum.2 += unpack_normal(voxel.normal);
             }
         }
-        progress.advance(0)?;
         let mean = |(key, (count, albedo, normal)): (u32, (f64, [f64; 3], DVec3))| ExactVoxel {
             key,
             albedo: albedo.map(|sum| sum / count),
             normal: normal / count,
         };
-        Ok(sums.into_iter().map(mean).collect())
+        Ok(ExactSurface { voxels: sums.into_iter().map(mean).collect(), warnings })
+    }
+
+    /// Voxelizes every object that is not hidden, in parallel; `None` stands for one that is not at a
+    /// finite place. What goes wrong with one object is a sentence that names it.
+    fn each_shown<T: Send>(
+        &self,
+        hidden: &Hidden,
+        progress: &Progress,
+        voxelize: impl Fn(&PreparedObject) -> Option<Result<T, VoxelizeError>> + Sync,
+    ) -> Result<Vec<Result<T, String>>, Cancelled> {
+        let shown: Vec<&PreparedObject> =
+            (0..).zip(&self.objects).filter(|(index, _)| !hidden.contains(*index)).map(|(_, object)| object).collect();
+        progress.add_total(shown.len() as u64);
+        let voxelize = |object: &PreparedObject| {
+            let name = &object.object.name;
+            let voxels = voxelize(object);
+            progress.advance(1)?;
+            match voxels {
+                Some(Ok(voxels)) => Ok(Ok(voxels)),
+                Some(Err(VoxelizeError::Cancelled(cancelled))) => Err(cancelled),
+                Some(Err(cause)) => Ok(Err(format!("object \"{name}\": {cause}"))),
+                None => Ok(Err(format!("object \"{name}\" is not at a finite place"))),
+            }
+        };
+        shown.into_par_iter().map(voxelize).collect()
     }
 
     /// Key of a cell counted from the anchor, if the grid holds it.

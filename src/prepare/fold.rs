@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3, IVec3};
 
 use super::{Prepared, PreparedPart};
 use crate::scene::{Motion, Pose};
-use crate::settings::{MotionSettings, VoxelAnchor};
+use crate::settings::{Hidden, MotionSettings, VoxelAnchor};
 use crate::stages::transform::{Matrix3x4, Part};
 
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -24,7 +24,8 @@ pub struct FrameMatrices {
     pub parts: Vec<Part>,
     /// Whether a part may reach into the grid: the others leave it (Object I-O).
     pub resident: Vec<bool>,
-    /// Objects left out of this frame because a matrix that moves them is not finite.
+    /// Objects left out of this frame because a matrix that moves them is not finite. Those that are
+    /// hidden are not looked at.
     pub left_out: Vec<usize>,
 }
 
@@ -68,8 +69,14 @@ impl Prepared {
         DMat4::from_translation(centre) * rotation * DMat4::from_translation(-centre)
     }
 
-    /// Folds a pose into what the GPU reads.
-    pub fn fold(&self, motion: &MotionSettings, anchor: VoxelAnchor) -> Result<FrameMatrices, MotionError> {
+    /// Folds a pose into what the GPU reads. Parts that are hidden or outside the grid need no matrix:
+    /// how those move changes nothing.
+    pub fn fold(
+        &self,
+        motion: &MotionSettings,
+        anchor: VoxelAnchor,
+        hidden: &Hidden,
+    ) -> Result<FrameMatrices, MotionError> {
         let pose = self.pose(motion)?;
         let mut fold = Fold {
             prepared: self,
@@ -80,10 +87,11 @@ impl Prepared {
             skins: HashMap::new(),
         };
         for part in &self.parts {
-            let object = &self.objects[part.object].object;
-            match object.motion {
+            let is_hidden = hidden.contains(part.object);
+            match self.objects[part.object].object.motion {
+                Motion::Skinned { .. } if is_hidden => fold.push_part(part, IVec3::ZERO, 0, false),
                 Motion::Skinned { skin } => fold.skinned_part(part, skin, &pose),
-                _ => fold.rigid_part(part, &pose),
+                Motion::Static | Motion::Rigid => fold.rigid_part(part, &pose, is_hidden),
             }
         }
         Ok(fold.frame)
@@ -103,32 +111,42 @@ struct Fold<'a> {
 struct FoldedSkin {
     first_matrix: u32,
     base: IVec3,
-    grid_from_cells: Vec<DMat4>,
+    /// `None` where the rounded matrix is not finite.
+    grid_from_cells: Vec<Option<DMat4>>,
 }
 
 impl Fold<'_> {
-    fn rigid_part(&mut self, part: &PreparedPart, pose: &Pose) {
+    /// Every rigid part has a matrix, so that each finds its own; zero where nothing reads it.
+    fn rigid_part(&mut self, part: &PreparedPart, pose: &Pose, is_hidden: bool) {
         let object = &self.prepared.objects[part.object];
         let moved = if object.lattice.is_grid() { self.turn } else { pose.world_from_node[object.object.node] };
         let grid_from_cells = self.grid_from_world * moved * object.lattice.space_from_cells();
+        let rounded = self.rounded(&grid_from_cells, part.tile.origin);
+        let reaches = MovedBox::of(&grid_from_cells, part).touches_grid(self.prepared.grid.cells());
+        let resident = rounded.is_some() && reaches && !is_hidden;
         let first_matrix = self.frame.matrices.len() as u32;
-        let finite = self.push_matrix(&grid_from_cells, part.tile.origin);
-        let resident = finite && reaches_grid(&grid_from_cells, part, self.prepared.grid.cells());
+        self.frame.matrices.push(rounded.filter(|_| resident).unwrap_or_default());
         self.push_part(part, IVec3::ZERO, first_matrix, resident);
-        self.note(part, finite);
+        self.note(part, rounded.is_some() || is_hidden);
     }
 
+    /// A blended voxel is a weighted mean of where its joints would have it. No joint's image of the
+    /// part need reach the grid for a mean between two to lie in it, but no mean leaves the box
+    /// around all images.
     fn skinned_part(&mut self, part: &PreparedPart, skin: usize, pose: &Pose) {
         if !self.skins.contains_key(&skin) {
             let folded = self.fold_skin(part, skin, pose);
             self.skins.insert(skin, folded);
         }
         let folded = &self.skins[&skin];
-        let used = self.used_joints(part);
-        let cells = self.prepared.grid.cells();
-        let finite = used.iter().all(|&joint| folded.grid_from_cells[joint].is_finite());
-        let resident = finite && used.iter().any(|&joint| reaches_grid(&folded.grid_from_cells[joint], part, cells));
-        let (origin, first_matrix) = (part.tile.origin - folded.base, folded.first_matrix);
+        let used: Option<Vec<&DMat4>> =
+            self.used_joints(part).into_iter().map(|joint| folded.grid_from_cells[joint].as_ref()).collect();
+        let reaches = |used: &Vec<&DMat4>| {
+            let boxes = used.iter().map(|matrix| MovedBox::of(matrix, part));
+            boxes.fold(MovedBox::EMPTY, MovedBox::union).touches_grid(self.prepared.grid.cells())
+        };
+        let resident = used.as_ref().is_some_and(reaches);
+        let (origin, first_matrix, finite) = (part.tile.origin - folded.base, folded.first_matrix, used.is_some());
         self.push_part(part, origin, first_matrix, resident);
         self.note(part, finite);
     }
@@ -141,11 +159,12 @@ impl Fold<'_> {
         let base = prepared.parts.iter().filter(same_skin).fold(IVec3::MAX, |base, other| base.min(other.tile.origin));
         let space_from_cells = prepared.objects[part.object].lattice.space_from_cells();
         let first_matrix = self.frame.matrices.len() as u32;
-        let joints = prepared.scene.joint_matrices(skin, pose);
-        let grid_from_cells: Vec<DMat4> =
-            joints.iter().map(|joint| self.grid_from_world * *joint * space_from_cells).collect();
-        for matrix in &grid_from_cells {
-            self.push_matrix(matrix, base);
+        let mut grid_from_cells = Vec::new();
+        for joint in prepared.scene.joint_matrices(skin, pose) {
+            let matrix = self.grid_from_world * joint * space_from_cells;
+            let rounded = self.rounded(&matrix, base);
+            grid_from_cells.push(rounded.map(|_| matrix));
+            self.frame.matrices.push(rounded.unwrap_or_default());
         }
         FoldedSkin { first_matrix, base, grid_from_cells }
     }
@@ -167,23 +186,20 @@ impl Fold<'_> {
         used
     }
 
-    /// Folds origin and anchor into the translation, then rounds to f32 once. A matrix that is not
-    /// finite is stored as zero: nothing reads it.
-    fn push_matrix(&mut self, grid_from_cells: &DMat4, origin: IVec3) -> bool {
-        let finite = grid_from_cells.is_finite();
-        let matrix = if finite { *grid_from_cells } else { DMat4::ZERO };
+    /// Folds origin and anchor into the translation, then rounds to f32 once. `None` if that is not
+    /// finite: numbers that an f64 holds may be too large for an f32.
+    fn rounded(&self, grid_from_cells: &DMat4, origin: IVec3) -> Option<Matrix3x4> {
         let first_cell = origin.as_dvec3();
         let translation = match self.anchor {
-            VoxelAnchor::Centre => matrix.transform_point3(first_cell + 0.5),
+            VoxelAnchor::Centre => grid_from_cells.transform_point3(first_cell + 0.5),
             // Eq. 1: the moved corner is taken for the corner of an unturned cube.
-            VoxelAnchor::Corner => matrix.transform_point3(first_cell) + 0.5,
+            VoxelAnchor::Corner => grid_from_cells.transform_point3(first_cell) + 0.5,
         };
         let rows = [0, 1, 2].map(|axis| {
-            let row = matrix.row(axis);
+            let row = grid_from_cells.row(axis);
             [row.x as f32, row.y as f32, row.z as f32, translation[axis] as f32]
         });
-        self.frame.matrices.push(Matrix3x4 { rows });
-        finite
+        rows.as_flattened().iter().all(|entry| entry.is_finite()).then_some(Matrix3x4 { rows })
     }
 
     fn push_part(&mut self, part: &PreparedPart, origin: IVec3, first_matrix: u32, resident: bool) {
@@ -199,18 +215,33 @@ impl Fold<'_> {
     }
 }
 
-/// Whether a part's box, moved, touches the grid or the guard layer around it.
-fn reaches_grid(grid_from_cells: &DMat4, part: &PreparedPart, cells: u32) -> bool {
-    let first = part.tile.origin.as_dvec3();
-    let extent = part.extent_cells.as_dvec3();
-    let corners = (0..8).map(|corner| {
-        let offset = DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2 & 1));
-        grid_from_cells.transform_point3(first + extent * offset)
-    });
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for corner in corners {
-        low = low.min(corner);
-        high = high.max(corner);
+/// The box around a part's moved box, in cells of the grid.
+#[derive(Clone, Copy)]
+struct MovedBox {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl MovedBox {
+    const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+
+    fn of(grid_from_cells: &DMat4, part: &PreparedPart) -> Self {
+        let first = part.tile.origin.as_dvec3();
+        let extent = part.extent_cells.as_dvec3();
+        let corners = (0..8).map(|corner| {
+            let offset = DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2 & 1));
+            grid_from_cells.transform_point3(first + extent * offset)
+        });
+        corners.fold(Self::EMPTY, |all, corner| all.union(Self { low: corner, high: corner }))
     }
-    low.cmple(DVec3::splat(f64::from(cells) + 1.0)).all() && high.cmpge(DVec3::splat(-1.0)).all()
+
+    fn union(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// Whether it touches the grid or the guard layer around it.
+    fn touches_grid(&self, cells: u32) -> bool {
+        let reaches_up = self.low.cmple(DVec3::splat(f64::from(cells) + 1.0)).all();
+        reaches_up && self.high.cmpge(DVec3::splat(-1.0)).all()
+    }
 }

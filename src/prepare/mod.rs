@@ -5,6 +5,8 @@
 mod caches;
 mod exact;
 mod fold;
+mod framing;
+mod hidden;
 mod lattice;
 
 use std::collections::HashMap;
@@ -22,7 +24,7 @@ use crate::stages::voxelize::{TexturePyramids, VoxelizeError};
 
 pub use caches::{CacheOrigins, Stores};
 use caches::{Wanted, Work};
-pub use exact::{ExactError, ExactVoxel, ExactVoxels};
+pub use exact::{ExactError, ExactSurface, ExactVoxel, ExactVoxels};
 pub use fold::{FrameMatrices, MotionError};
 pub use lattice::Lattice;
 

@@ -5,6 +5,7 @@ mod corpus;
 mod defects;
 mod files;
 mod models;
+mod hidden;
 mod pictures;
 mod reports;
 mod scenes;

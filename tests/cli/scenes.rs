@@ -35,6 +35,14 @@ impl Scenes {
         file.write(&self.path("still.gltf"), attributes, json!([{ "name": "Crate", "mesh": 0 }]), None, None)
     }
 
+    /// Two nodes of one name.
+    pub fn twins(&self) -> PathBuf {
+        let mut file = Writer::default();
+        let attributes = file.box_attributes();
+        let twin = json!({ "name": "Twin", "mesh": 0 });
+        file.write(&self.path("twins.gltf"), attributes, json!([{ "children": [1, 2] }, twin, twin]), None, None)
+    }
+
     /// Turns by 90° about y in [`TURN_SECS`].
     pub fn turning_box(&self) -> PathBuf {
         let mut file = Writer::default();

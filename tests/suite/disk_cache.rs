@@ -1,13 +1,12 @@
-//! Voxels kept on disk: found by content alone, whole or not at all, never more than the cap.
+//! Voxels kept on disk: what a second opening finds, whole or not at all, whoever else is at it.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, SystemTime};
 
 use octolume::data::voxel_cache::VoxelizationMode;
-use octolume::disk_cache::{Contents, DEFAULT_CAP_BYTES, DiskCache};
+use octolume::disk_cache::DiskCache;
 use octolume::prepare::{CacheOrigins, PrepareError, Prepared, Stores, prepare, prepare_with};
 use octolume::progress::Progress;
 use octolume::scene::{Scene, builtin, load};
@@ -17,35 +16,35 @@ use tempfile::TempDir;
 use crate::scenes::cube_scene;
 
 /// A cache in a folder that goes away with the test.
-struct Folder {
-    disk: DiskCache,
-    folder: TempDir,
+pub struct Folder {
+    pub disk: DiskCache,
+    pub folder: TempDir,
 }
 
 impl Folder {
-    fn new() -> Self {
+    pub fn new() -> Self {
         let folder = TempDir::new().expect("a temporary folder");
         Self { disk: DiskCache::at(folder.path().join("voxels")), folder }
     }
 
-    fn entries(&self) -> BTreeSet<PathBuf> {
+    pub fn entries(&self) -> BTreeSet<PathBuf> {
         let items = fs::read_dir(self.disk.folder()).expect("the folder exists");
         items.map(|item| item.expect("an item").path()).collect()
     }
 }
 
-fn small(scene: &str) -> Arc<Scene> {
+pub fn small(scene: &str) -> Arc<Scene> {
     let bytes = builtin::bytes(scene).expect("a built-in scene");
     Arc::new(load::open_bytes(scene, bytes, None, &Progress::default()).unwrap_or_else(|error| panic!("{error}")))
 }
 
-fn through(disk: &DiskCache, scene: &Arc<Scene>, discretization: &Discretization) -> Prepared {
+pub fn through(disk: &DiskCache, scene: &Arc<Scene>, discretization: &Discretization) -> Prepared {
     let stores = Stores { reuse: None, disk: Some(disk) };
     prepare_with(Arc::clone(scene), discretization, stores, &Progress::default())
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-const SMALL: Discretization = Discretization {
+pub const SMALL: Discretization = Discretization {
     grid: 64,
     span: None,
     mode: VoxelizationMode::Thin,
@@ -54,7 +53,7 @@ const SMALL: Discretization = Discretization {
     anchor: VoxelAnchor::Centre,
 };
 
-fn assert_same_voxels(found: &Prepared, expected: &Prepared) {
+pub fn assert_same_voxels(found: &Prepared, expected: &Prepared) {
     assert_eq!(found.caches.len(), expected.caches.len());
     for (found, expected) in found.caches.iter().zip(&expected.caches) {
         // Bits, so that −0 and 0 differ.
@@ -104,13 +103,16 @@ fn objects_of_equal_content_share_an_entry() {
     assert_eq!(folder.entries().len(), 1);
 }
 
+/// Does something to an entry that is known to be good.
+type Damage = fn(&Path, &[u8]);
+
 #[test]
 fn damaged_entries_are_replaced() {
     let (folder, scene) = (Folder::new(), Arc::new(cube_scene(Default::default())));
     let expected = through(&folder.disk, &scene, &SMALL);
     let entry = folder.entries().pop_first().expect("an entry");
     let good = fs::read(&entry).expect("readable");
-    let damages: [(&str, fn(&Path, &[u8])); 6] = [
+    let damages: [(&str, Damage); 6] = [
         ("empty", |entry, _| fs::write(entry, []).expect("written")),
         ("truncated", |entry, good| fs::write(entry, &good[..good.len() - 1]).expect("written")),
         ("longer", |entry, good| fs::write(entry, [good, &[0]].concat()).expect("written")),
@@ -135,88 +137,6 @@ fn damaged_entries_are_replaced() {
     let other = folder.entries().into_iter().find(|path| *path != entry).expect("another entry");
     fs::copy(&other, &entry).expect("copied");
     assert_eq!(through(&folder.disk, &scene, &SMALL).origins.replaced, 1);
-}
-
-#[test]
-fn a_folder_that_takes_nothing_is_one_warning_and_everything_goes_on() {
-    let (folder, scene) = (Folder::new(), small("courtyard"));
-    let file = folder.folder.path().join("file");
-    File::create(&file).expect("created");
-    let disk = DiskCache::at(file.join("voxels"));
-    let plain = prepare(Arc::clone(&scene), &SMALL, None, &Progress::default()).expect("prepares");
-    let prepared = through(&disk, &scene, &SMALL);
-    assert_same_voxels(&prepared, &plain);
-    let [known @ .., warning] = prepared.warnings.as_slice() else { panic!("a warning is missing") };
-    assert_eq!(known, plain.warnings);
-    let start = format!("voxels are not kept for the next opening: {} cannot be written (", disk.folder().display());
-    assert!(warning.starts_with(&start) && warning.ends_with(')'), "{warning}");
-    assert_eq!((disk.contents().ok(), disk.cap_bytes()), (None, DEFAULT_CAP_BYTES));
-}
-
-/// Lets every entry seem last used that many hours ago.
-fn age(entry: &Path, hours: u64) {
-    let then = SystemTime::now() - Duration::from_secs(3600 * hours);
-    File::options().append(true).open(entry).and_then(|file| file.set_modified(then)).expect("aged");
-}
-
-#[test]
-fn the_least_recently_used_entries_go_first_and_reading_is_using() {
-    let (folder, scene) = (Folder::new(), Arc::new(cube_scene(Default::default())));
-    let spans = [0.25, 0.125, 0.0625];
-    let at = |span| Discretization { span: Some(span), ..SMALL };
-    let mut entries = Vec::new();
-    for span in spans {
-        let before = if entries.is_empty() { BTreeSet::new() } else { folder.entries() };
-        through(&folder.disk, &scene, &at(span));
-        entries.extend(folder.entries().difference(&before).cloned());
-    }
-    let sizes: Vec<u64> = entries.iter().map(|entry| entry.metadata().expect("there").len()).collect();
-    let all = Contents { entries: 3, bytes: sizes.iter().sum() };
-    assert_eq!(folder.disk.contents().expect("listed"), all);
-    for (entry, hours) in entries.iter().zip([9, 8, 7]) {
-        age(entry, hours);
-    }
-    assert_eq!(through(&folder.disk, &scene, &at(spans[0])).origins.read, 1);
-    // One byte too many: the second is now the oldest.
-    let removed = folder.disk.set_cap_bytes(all.bytes - 1).expect("trimmed");
-    assert_eq!(removed, Contents { entries: 1, bytes: sizes[1] });
-    let exists: Vec<bool> = entries.iter().map(|entry| entry.exists()).collect();
-    assert_eq!(exists, [true, false, true]);
-    // A cap holds for whoever comes next, and what comes new pushes out what is old.
-    let again = DiskCache::at(folder.disk.folder());
-    assert_eq!(again.cap_bytes(), all.bytes - 1);
-    assert_eq!(through(&again, &scene, &at(spans[1])).origins.voxelized, 1);
-    assert_eq!(entries.iter().map(|entry| entry.exists()).collect::<Vec<_>>(), [true, true, false]);
-    // What is larger than the cap is not kept, and pushes nothing out.
-    let smallest = *sizes.iter().min().expect("three");
-    assert_eq!(smallest, sizes[0]);
-    again.set_cap_bytes(smallest).expect("trimmed");
-    assert_eq!(through(&again, &scene, &at(spans[2])).origins.voxelized, 1);
-    assert_eq!(again.contents().expect("listed"), Contents { entries: 0, bytes: 0 });
-    assert_eq!(through(&again, &scene, &at(spans[0])).origins.voxelized, 1);
-    assert_eq!(again.contents().expect("listed"), Contents { entries: 1, bytes: smallest });
-}
-
-#[test]
-fn clearing_leaves_the_cap_and_what_is_not_the_caches() {
-    let (folder, scene) = (Folder::new(), Arc::new(cube_scene(Default::default())));
-    assert_eq!(folder.disk.contents().expect("an absent folder is empty"), Contents::default());
-    through(&folder.disk, &scene, &SMALL);
-    folder.disk.set_cap_bytes(12_345_678).expect("trimmed");
-    let [foreign, abandoned, fresh] =
-        ["notes.txt", "a.unfinished", "b.unfinished"].map(|name| folder.disk.folder().join(name));
-    for file in [&foreign, &abandoned, &fresh] {
-        fs::write(file, "text").expect("written");
-    }
-    age(&abandoned, 2);
-    assert_eq!(folder.disk.trim().expect("trimmed"), Contents::default());
-    assert!(!abandoned.exists() && fresh.exists());
-    assert_eq!(folder.disk.clear().expect("cleared").entries, 1);
-    assert_eq!((folder.entries().len(), foreign.exists(), fresh.exists()), (2, true, false));
-    assert_eq!((folder.disk.cap_bytes(), folder.disk.contents().expect("listed")), (12_345_678, Contents::default()));
-    // A cap that cannot be read is the usual one.
-    fs::write(folder.disk.folder().join("cap-bytes"), "much").expect("written");
-    assert_eq!(folder.disk.cap_bytes(), DEFAULT_CAP_BYTES);
 }
 
 #[test]

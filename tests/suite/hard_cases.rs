@@ -15,7 +15,7 @@ const SECTIONS: [(&str, usize); 8] = [
     ("Octree and neighbour pointers", 5),
     ("Averaging", 2),
     ("Rays and cones", 3),
-    ("Camera, window, device", 1),
+    ("Camera, window, device", 16),
 ];
 
 fn root() -> &'static Path {

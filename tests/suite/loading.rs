@@ -186,18 +186,21 @@ fn the_scene_asked_for_is_shown() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scenes.gltf");
     std::fs::write(&path, document.bytes()).expect("written");
-    let open = |scene| {
-        let options = scene::load::OpenOptions { scene, ..Default::default() };
+    let open = |wanted: Option<&str>| {
+        let options = scene::load::OpenOptions {
+            scene: wanted.map(|name| scene::load::SceneChoice::Named(name.to_owned())),
+            ..Default::default()
+        };
         scene::load::open_with(&path, &options, &Progress::default())
     };
-    for (asked, shown) in [(None, 0), (Some(0), 0), (Some(1), 1)] {
+    for (asked, shown) in [(None, 0), (Some("first"), 0), (Some("1"), 1), (Some("scene 1"), 1)] {
         let scene = open(asked).expect("opens");
         assert_eq!(scene.scene_names, ["first", "scene 1"]);
         assert_eq!(scene.shown_scene, Some(shown));
         assert_eq!(scene.objects().iter().map(|object| object.node).collect::<Vec<_>>(), [shown]);
     }
-    let refusal = open(Some(2)).expect_err("refused").to_string();
-    assert!(refusal.ends_with("scenes: there are 2, and number 2 (from 0) was asked for"), "{refusal}");
+    let refusal = open(Some("2")).expect_err("refused").to_string();
+    assert!(refusal.ends_with("scenes: there is no \"2\"; the file holds \"first\", \"scene 1\""), "{refusal}");
 }
 
 #[test]
@@ -210,7 +213,7 @@ fn only_the_default_scene_is_drawn() {
     assert_eq!(scene.objects().iter().map(|object| object.node).collect::<Vec<_>>(), [1]);
     assert_eq!(
         scene.warnings,
-        ["the file holds 2 scenes; scene 1 is shown", "1 node with a mesh is not in the scene that is shown"]
+        ["the file holds 2 scenes; \"scene 1\" is shown", "1 node with a mesh is not in the scene that is shown"]
     );
 }
 

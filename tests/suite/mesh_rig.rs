@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3, IVec3, Vec2, Vec3};
 use octolume::data::grid::Grid;
 use octolume::gpu::{Gpu, Job, Recorder};
 use octolume::scene::{LocalTransform, Material, Mesh, Node, OrbitCamera, Primitive, Scene, Skin, Trs};
-use octolume::settings::Look;
+use octolume::settings::{Hidden, Look};
 use octolume::stages::view::camera::PixelRays;
 use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
 use octolume::stages::view::mesh_scene::MeshScene;
@@ -69,12 +69,12 @@ pub fn look() -> Look {
 pub fn drawn(gpu: &Gpu, scene: Scene, look: &Look) -> Seen {
     let objects = (0..).zip(scene.objects()).collect();
     let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects);
-    while !mesh.upload(gpu, Duration::ZERO).expect("fits") {}
+    while !mesh.upload(gpu, &Hidden::default(), Duration::ZERO).expect("fits") {}
     let picture = Picture::new(gpu, SIZE_PX).expect("fits");
     let depth = picture::depth_buffer(gpu, SIZE_PX).expect("fits");
     let (camera, grid) = (camera(), grid());
     let mut recorder = Recorder::default();
-    let seen = MeshView { camera: &camera, grid: &grid, look };
+    let seen = MeshView { camera: &camera, grid: &grid, look, hidden: &Hidden::default() };
     let target = MeshTarget { picture: &picture, depth: &depth };
     mesh::record(gpu, &mut recorder, &mut mesh, &scene.pose(None, 0.0), seen, target).expect("records");
     Job::new(recorder).run_to_end(gpu).expect("runs");

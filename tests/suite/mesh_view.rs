@@ -6,7 +6,7 @@ use std::time::Duration;
 use glam::{DMat4, DQuat, DVec3, Vec4};
 use octolume::gpu::{Job, Recorder};
 use octolume::scene::{AlphaMode, LocalTransform, Material, Node, Scene, Texture, TextureRef, Trs, Wrap};
-use octolume::settings::{ColorBy, Look};
+use octolume::settings::{ColorBy, Hidden, Look};
 use octolume::stages::view::camera::PixelRays;
 use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
 use octolume::stages::view::mesh_scene::MeshScene;
@@ -209,12 +209,12 @@ fn slices_of_a_draw_make_the_whole_picture() {
     let gpu = open();
     let objects = (0..).zip(many.objects()).collect();
     let mut mesh = MeshScene::new(Arc::new(many.clone()), objects);
-    while !mesh.upload(&gpu, Duration::ZERO).expect("fits") {}
+    while !mesh.upload(&gpu, &Hidden::default(), Duration::ZERO).expect("fits") {}
     let picture = Picture::new(&gpu, SIZE_PX).expect("fits");
     let depth = picture::depth_buffer(&gpu, SIZE_PX).expect("fits");
     let mut recorder = Recorder::default();
     let (camera, grid, look) = (camera(), grid(), look());
-    let seen = MeshView { camera: &camera, grid: &grid, look: &look };
+    let seen = MeshView { camera: &camera, grid: &grid, look: &look, hidden: &Hidden::default() };
     let target = MeshTarget { picture: &picture, depth: &depth };
     mesh::record(&gpu, &mut recorder, &mut mesh, &many.pose(None, 0.0), seen, target).expect("records");
     let mut job = Job::new(recorder);

@@ -7,7 +7,7 @@ use octolume::data::pages::SegmentOrder;
 use octolume::prepare::{FrameMatrices, Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{LocalTransform, Node, Property, Scene, Trs};
-use octolume::settings::{Discretization, MotionSettings, VoxelAnchor};
+use octolume::settings::{Discretization, Hidden, MotionSettings, VoxelAnchor};
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::transform::Matrix3x4;
 
@@ -24,7 +24,7 @@ fn prepared(scene: Scene, span: Option<f64>) -> Prepared {
 }
 
 fn folded(prepared: &Prepared, motion: &MotionSettings) -> FrameMatrices {
-    prepared.fold(motion, VoxelAnchor::Centre).unwrap_or_else(|error| panic!("{error}"))
+    prepared.fold(motion, VoxelAnchor::Centre, &Hidden::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// World voxels of the parts that are in the grid, by object.

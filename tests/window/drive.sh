@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Drives the real window by mouse and keyboard on a display of its own: filter, timeline, level,
-# view and screenshot. Photographs every step into FOLDER. Fails if the window does not open, a
+# view, scene tree and screenshot. Photographs every step into FOLDER. Fails if the window does not open, a
 # photo is uniform, or a control that must change the picture does not.
 #
 #   tests/window/drive.sh PROGRAM SCENE FOLDER
@@ -19,6 +19,7 @@ readonly NEAREST="133 470" SPLIT="230 470" MEASURE="15 661"
 readonly VOXELS="114 729" MESH="164 729" GHOST="211 729"
 readonly LEVEL_LEAVES="214 753" LEVEL_MIDDLE="150 753"
 readonly TIME_START="342 882" TIME_MIDDLE="700 882"
+readonly TREE_SECOND_ROW="400 93"
 readonly VIEW_MIDDLE="690 460" VIEW_ASIDE="810 520" SCREENSHOT="1278 17"
 # The picture alone, without the texts over it.
 readonly VIEW=770x740+300+80
@@ -114,7 +115,15 @@ click "$VOXELS"; click "$MEASURE"; photograph_at_rest 11-measured; must_equal 08
 drag "$VIEW_MIDDLE" "$VIEW_ASIDE"; photograph_at_rest 12-orbited; must_change 11-measured 12-orbited
 xdotool key f; photograph_at_rest 13-framed; must_change 12-orbited 13-framed
 
-click "$SCREENSHOT"; sleep 1; xdotool key ctrl+s; photograph_at_rest 14-saved
+xdotool key t; click "$TREE_SECOND_ROW"; photograph_at_rest 14-tree; must_change 13-framed 14-tree
+xdotool key h; photograph_at_rest 15-hidden; must_change 14-tree 15-hidden
+xdotool key shift+h; photograph_at_rest 16-isolated; must_change 15-hidden 16-isolated
+xdotool key f; photograph_at_rest 17-framed; must_change 16-isolated 17-framed
+xdotool key ctrl+z; photograph_at_rest 18-undone; must_equal 16-isolated 18-undone
+xdotool key alt+h; photograph_at_rest 19-shown; must_equal 14-tree 19-shown
+xdotool key t; photograph_at_rest 20-folded; must_equal 13-framed 20-folded
+
+click "$SCREENSHOT"; sleep 1; xdotool key ctrl+s; photograph_at_rest 21-saved
 shots=("$folder"/octolume-*.png)
 ((${#shots[@]} == 2)) || fail "two screenshots were asked for, there are ${#shots[@]}"
 for shot in "${shots[@]}"; do

@@ -1,9 +1,11 @@
 //! The real window without a display: driven by label on the software GPU, its pixels compared.
 
 mod controls;
+mod files;
+mod opening;
 mod rig;
+mod tree;
 
-use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use egui::{Key, Modifiers, vec2};
@@ -12,7 +14,8 @@ use octolume::app::App;
 use octolume::export::read_settings;
 use octolume::settings::{Filter, View};
 
-use rig::{Window, assert_changed, difference, new_device, wgpu_setup};
+use files::Dropped;
+use rig::{Window, assert_changed, difference, new_device, shared_models, wgpu_setup};
 
 #[test]
 fn the_camera_orbits_pans_zooms_and_frames_everything_again() {
@@ -74,9 +77,8 @@ fn a_file_that_cannot_be_opened_leaves_the_scene_open() {
     let before = window.view();
     window.type_into("Path", "no/such/file.glb");
     window.click("Open");
-    ["Timings", "Octree", "Frame plan"].into_iter().for_each(|folded| window.click(folded));
-    window.click("Log");
-    assert!(window.0.query_all_by_label_contains("no/such/file.glb: cannot be read").next().is_some());
+    assert!(window.log_holds("no/such/file.glb: cannot be read"));
+    window.outlast_notes();
     assert_eq!(difference(&before, &window.view()), 0);
 }
 
@@ -104,6 +106,7 @@ fn a_lost_gpu_keeps_scene_and_settings_for_a_new_one() {
     let mut again = Window::build(wgpu_setup(), move |context| App::again(context, kept).expect("a window"));
     assert_eq!(again.app().settings().look.level, Some(5));
     again.click("Split");
+    again.outlast_notes();
     assert_eq!(difference(&before, &again.view()), 0, "the same picture on another device");
 }
 
@@ -123,9 +126,7 @@ fn input_to_paint_is_measured() {
 
 #[test]
 fn real_files_open_by_drop() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders = ["../shared/gltf", "../../shared/gltf"].map(|folder| root.join(folder));
-    let Some(folder) = folders.into_iter().find(|folder| folder.is_dir()) else { return };
+    let Some(folder) = shared_models() else { return };
     let mut window = Window::open("courtyard");
     let courtyard = window.view();
     window.0.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(folder.join("Fox/Fox.glb"))));
@@ -134,17 +135,4 @@ fn real_files_open_by_drop() {
     assert!(window.0.query_all_by_label("Fox").next().is_some());
     window.click("Ghost");
     assert_eq!(window.app().settings().look.view, View::Ghost);
-}
-
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
 }

@@ -1,17 +1,17 @@
 //! The window in a harness: controls by label, pixels of the view.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
-use egui::{Key, Modifiers, Rect, vec2};
+use egui::{Key, Modifiers, PointerButton, Rect, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use image::RgbaImage;
-use octolume::app::App;
+use octolume::app::{App, Start};
 use octolume::gpu::Gpu;
-use octolume::settings::Settings;
+use octolume::settings::{NodeNames, Settings};
 
 /// No build or voxelization of these scenes takes longer, on any machine.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -31,6 +31,18 @@ pub fn new_device() -> egui_wgpu::WgpuSetup {
     egui_wgpu::WgpuSetup::Existing(egui_wgpu::WgpuSetupExisting { instance, adapter, device, queue })
 }
 
+/// Real models, where they lie beside the sources.
+pub fn shared_models() -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    ["../shared/gltf", "../../shared/gltf"].map(|folder| root.join(folder)).into_iter().find(|folder| folder.is_dir())
+}
+
+pub fn small_grid() -> Settings {
+    let mut settings = Settings::default();
+    settings.discretization.grid = 64;
+    settings
+}
+
 pub struct Window(pub Harness<'static, App>);
 
 impl Window {
@@ -39,10 +51,14 @@ impl Window {
     }
 
     pub fn on(device: egui_wgpu::WgpuSetup, scene: &str) -> Self {
-        let mut settings = Settings::default();
-        settings.discretization.grid = 64;
+        Self::with(device, scene, small_grid(), NodeNames::default())
+    }
+
+    pub fn with(device: egui_wgpu::WgpuSetup, scene: &str, settings: Settings, names: NodeNames) -> Self {
         let scene = PathBuf::from(scene);
-        Self::build(device, move |context| App::new(context, &scene, settings).expect("a window"))
+        Self::build(device, move |context| {
+            App::new(context, &scene, Start { settings, names, ..Start::default() }).expect("a window")
+        })
     }
 
     pub fn build(device: egui_wgpu::WgpuSetup, app: impl FnOnce(&mut eframe::CreationContext<'static>) -> App) -> Self {
@@ -65,6 +81,12 @@ impl Window {
         self.0.check_accessibility();
     }
 
+    /// Lets the notes in the corner go: they lie over the view.
+    pub fn outlast_notes(&mut self) {
+        // A step is a quarter of a second of the window's clock, and no note stays for ten.
+        self.0.run_steps(40);
+    }
+
     pub fn app(&self) -> &App {
         self.0.state()
     }
@@ -76,6 +98,58 @@ impl Window {
         assert_eq!(controls.len(), 1, "controls called {label}");
         controls[0].click();
         self.settle();
+    }
+
+    /// Unfolds the scene tree in the place of the measurements.
+    pub fn open_tree(&mut self) {
+        self.click("Measurements");
+        self.click("Tree");
+    }
+
+    /// Clicks the row of the scene tree with this name, so many times in a row.
+    pub fn click_row(&mut self, name: &str, button: PointerButton, times: usize) {
+        let rows = self.0.get_all_by_label(name).filter(|node| node.accesskit_node().role() == Role::Label);
+        let pos = rows.map(|node| node.rect().center()).next().unwrap_or_else(|| panic!("no row is called {name}"));
+        // Every event is a frame of its own, a quarter of a second of the window's clock.
+        self.0.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);
+        self.0.hover_at(pos);
+        for _ in 0..times {
+            for pressed in [true, false] {
+                self.0.event(egui::Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE });
+            }
+            self.0.step();
+        }
+        self.settle();
+    }
+
+    pub fn select(&mut self, name: &str) {
+        self.click_row(name, PointerButton::Primary, 1);
+    }
+
+    /// How many rows or facts are called like this.
+    pub fn count(&self, name: &str) -> usize {
+        self.0.query_all_by_label(name).filter(|node| node.accesskit_node().role() == Role::Label).count()
+    }
+
+    /// Clicks the one button of this name that can be clicked.
+    pub fn click_enabled(&mut self, label: &str) {
+        let buttons = self.0.get_all_by_label(label).filter(|node| !node.accesskit_node().is_disabled());
+        let buttons: Vec<_> = buttons.filter(|node| node.accesskit_node().role() == Role::Button).collect();
+        assert_eq!(buttons.len(), 1, "buttons called {label} that can be clicked");
+        buttons[0].click();
+        self.settle();
+    }
+
+    /// How many lines of the log hold this; the log is unfolded by it, and the measurements above it folded.
+    pub fn log_count(&mut self, text: &str) -> usize {
+        if self.0.query_by_label("Clear log").is_none() {
+            ["Timings", "Octree", "Frame plan", "Log"].into_iter().for_each(|section| self.click(section));
+        }
+        self.0.query_all_by_label_contains(text).count()
+    }
+
+    pub fn log_holds(&mut self, text: &str) -> bool {
+        self.log_count(text) > 0
     }
 
     /// Sets a slider, or a number that has none.

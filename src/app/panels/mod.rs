@@ -6,6 +6,7 @@ pub mod filter;
 pub mod icon;
 pub mod log;
 pub mod memory;
+mod node_facts;
 pub mod octree;
 pub mod plan;
 pub mod scene;
@@ -13,6 +14,8 @@ pub mod table;
 pub mod timeline;
 pub mod timings;
 pub mod top_bar;
+pub mod tree;
+mod tree_row;
 pub mod view;
 
 use egui::{CollapsingHeader, Response, RichText, Ui, WidgetInfo, vec2};
@@ -83,6 +86,13 @@ pub fn choice<T: PartialEq + Copy>(
 pub fn named_number(response: &Response, value: f64, name: &str) {
     let label = Some(name.to_owned());
     response.widget_info(|| WidgetInfo { label: label.clone(), ..WidgetInfo::drag_value(true, value) });
+}
+
+/// A row of a grid of two columns: name and value, cut where it is too long and whole in the tip.
+pub fn fact(ui: &mut Ui, name: &str, value: &str, tip: &str) {
+    ui.label(RichText::new(name).color(theme::WEAK));
+    ui.add(egui::Label::new(value).truncate()).on_hover_text(tip);
+    ui.end_row();
 }
 
 /// A line of text for something that is not there.

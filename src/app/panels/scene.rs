@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use egui::{Grid, RichText, TextEdit, Ui};
+use egui::{ComboBox, Grid, RichText, TextEdit, Ui};
 
-use super::{bytes, grouped, nothing};
+use super::{bytes, fact, grouped, nothing};
 use crate::app::commands::Command;
 use crate::app::loader::file_name;
 use crate::app::theme;
@@ -15,7 +15,10 @@ use crate::scene::{Motion, builtin};
 pub fn ui(ui: &mut Ui, scene: Option<&Prepared>, path: &mut String, recent: &[PathBuf]) -> Vec<Command> {
     let mut commands = open_ui(ui, path, recent);
     match scene {
-        Some(prepared) => facts_ui(ui, prepared),
+        Some(prepared) => {
+            commands.extend(scenes_ui(ui, prepared));
+            facts_ui(ui, prepared);
+        }
         None => nothing(ui, "No scene is open. Drop a .gltf or .glb file here."),
     }
     commands.dedup();
@@ -63,6 +66,24 @@ fn recent_ui(ui: &mut Ui, recent: &[PathBuf]) -> Vec<Command> {
     commands
 }
 
+/// Which scene of the file is shown, where it holds several.
+fn scenes_ui(ui: &mut Ui, prepared: &Prepared) -> Option<Command> {
+    let names = &prepared.scene.scene_names;
+    let shown = prepared.scene.shown_scene.filter(|_| names.len() > 1)?;
+    let mut chosen = shown;
+    ui.horizontal(|ui| {
+        let name = ui.label(RichText::new("Scene").color(theme::WEAK));
+        let combo = ComboBox::from_id_salt("scene of the file").selected_text(&names[shown]);
+        let combo = combo.show_ui(ui, |ui| {
+            for (number, name) in names.iter().enumerate() {
+                ui.selectable_value(&mut chosen, number, name);
+            }
+        });
+        combo.response.labelled_by(name.id).on_hover_text("The file holds several scenes; this one is shown.");
+    });
+    (chosen != shown).then_some(Command::ShowScene(chosen))
+}
+
 fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
     let scene = &prepared.scene;
     let count = |wanted: fn(&Motion) -> bool| {
@@ -108,11 +129,5 @@ fn warnings_ui(ui: &mut Ui, warnings: &[String]) {
         let count = RichText::new(format!("{}, see the log", warnings.len())).color(theme::WARNING);
         ui.label(count).on_hover_text(warnings.join("\n"));
     }
-    ui.end_row();
-}
-
-fn fact(ui: &mut Ui, name: &str, value: &str, tip: &str) {
-    ui.label(RichText::new(name).color(theme::WEAK));
-    ui.add(egui::Label::new(value).truncate()).on_hover_text(tip);
     ui.end_row();
 }

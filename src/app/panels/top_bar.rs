@@ -20,6 +20,7 @@ pub struct TopBar<'a> {
 /// Which side panels are unfolded.
 pub struct Unfolded {
     pub controls: bool,
+    pub tree: bool,
     pub measurements: bool,
 }
 
@@ -28,6 +29,8 @@ pub fn ui(ui: &mut Ui, bar: &TopBar<'_>, unfolded: &mut Unfolded) -> Vec<Command
     ui.horizontal_centered(|ui| {
         let tip = "Shows or hides the controls on the left.";
         ui.toggle_value(&mut unfolded.controls, "Controls").on_hover_text(tip);
+        let tip = "Shows or hides the scene tree: what the file holds, node by node (T).";
+        ui.toggle_value(&mut unfolded.tree, "Tree").on_hover_text(tip);
         ui.separator();
         ui.label(RichText::new("Octolume").color(theme::ACCENT).heading());
         ui.label(RichText::new(bar.scene.unwrap_or("no scene")).color(theme::STRONG).heading());
@@ -41,6 +44,15 @@ pub fn ui(ui: &mut Ui, bar: &TopBar<'_>, unfolded: &mut Unfolded) -> Vec<Command
             let tip = "Saves the view as PNG with its settings inside (Ctrl+S).";
             if save.on_hover_text(tip).clicked() {
                 commands.push(Command::SaveScreenshot);
+            }
+            // From the right: redo comes first.
+            for (name, tip, command) in [
+                ("Redo", "Sets again what was undone (Ctrl+Shift+Z).", Command::Redo),
+                ("Undo", "Takes back the last change of anything but the time (Ctrl+Z).", Command::Undo),
+            ] {
+                if ui.button(name).on_hover_text(tip).clicked() {
+                    commands.push(command);
+                }
             }
             ui.separator();
             let adapter = egui::Label::new(RichText::new(bar.adapter).color(theme::WEAK)).truncate();

@@ -27,10 +27,12 @@ impl Source<'_> {
     pub fn elements(&self, index: Index<Accessor>) -> Result<Elements<'_>, String> {
         let root = &self.root;
         let accessor = root.accessors.get(index.value()).ok_or_else(|| format!("accessor {index} does not exist"))?;
-        self.read_accessor(root, accessor).map_err(|cause| format!("accessor {index} {cause}"))
+        self.elements_of(accessor).map_err(|cause| format!("accessor {index} {cause}"))
     }
 
-    fn read_accessor(&self, root: &Root, accessor: &Accessor) -> Result<Elements<'_>, String> {
+    /// [`Self::elements`], with causes that leave the accessor's number out.
+    pub fn elements_of(&self, accessor: &Accessor) -> Result<Elements<'_>, String> {
+        let root = &self.root;
         let (Checked::Valid(component), Checked::Valid(shape)) = (&accessor.component_type, &accessor.type_) else {
             return Err("has an unknown type".to_owned());
         };
@@ -68,7 +70,7 @@ impl Source<'_> {
         if stride < size {
             return Err(format!("has a stride of {stride} bytes for elements of {size}"));
         }
-        let bytes = self.view_bytes(view)?;
+        let bytes = self.view_bytes(view).map_err(|cause| format!("lies in buffer view {view}, which {cause}"))?;
         let end = match count {
             0 => Some(offset),
             _ => (count - 1).checked_mul(stride).and_then(|last| last.checked_add(offset)?.checked_add(size)),

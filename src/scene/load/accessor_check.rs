@@ -2,7 +2,7 @@
 //! lie where glTF has them, and whether they hold what they declare. Each defect is a warning;
 //! where something reads a broken accessor, reading it is an error of its own.
 
-use gltf::json::{Accessor, Index, accessor::Type, validation::Checked};
+use gltf::json::{Accessor, accessor::Type, validation::Checked};
 use rayon::prelude::*;
 use serde_json::Value;
 
@@ -18,7 +18,7 @@ pub(super) fn check(source: &Source, progress: &Progress, warnings: &mut Vec<Str
     progress.add_total(accessors.len() as u64);
     let found: Vec<Result<Vec<String>, Defect>> = (accessors.par_iter().enumerate())
         .map(|(index, accessor)| {
-            let defects = defects(source, index, accessor);
+            let defects = defects(source, accessor);
             progress.advance(1)?;
             let object = label("accessor", index, accessor.name.as_deref());
             Ok(defects.into_iter().map(|defect| format!("{object}: it {defect}")).collect())
@@ -32,12 +32,12 @@ pub(super) fn check(source: &Source, progress: &Progress, warnings: &mut Vec<Str
     Ok(())
 }
 
-fn defects(source: &Source, index: usize, accessor: &Accessor) -> Vec<String> {
+fn defects(source: &Source, accessor: &Accessor) -> Vec<String> {
     let mut defects: Vec<String> = misplaced(source, accessor).into_iter().collect();
     if accessor.buffer_view.is_none() && accessor.sparse.is_none() {
         return defects; // all zero, or out of a Draco stream
     }
-    let elements = match source.elements(Index::new(index as u32)) {
+    let elements = match source.elements_of(accessor) {
         Ok(elements) => elements,
         Err(cause) => {
             defects.push(format!("cannot be read: {cause}"));

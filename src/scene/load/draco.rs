@@ -52,7 +52,8 @@ impl Decoded {
 fn decode(source: &Source, primitive: &Primitive, declared: &serde_json::Value) -> Result<PackedGeometry, String> {
     let declared = JsonValue::parse(declared.to_string().as_bytes()).map_err(|error| error.to_string())?;
     let extension = DracoPrimitiveExtension::from_json(&declared).map_err(|error| error.to_string())?;
-    let payload = source.view_bytes(Index::new(u32::try_from(extension.buffer_view()).unwrap_or(u32::MAX)))?;
+    let view = Index::new(u32::try_from(extension.buffer_view()).unwrap_or(u32::MAX));
+    let payload = source.view_bytes(view).map_err(|cause| format!("lies in buffer view {view}, which {cause}"))?;
     let mut contract = DracoPrimitiveContract::new();
     let accessor = |index: gltf::json::Index<gltf::json::Accessor>| &source.root.accessors[index.value()];
     for (semantic, &index) in &primitive.attributes {

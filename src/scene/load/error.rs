@@ -28,7 +28,7 @@ impl Defect {
     pub fn in_file(self, file: &str) -> LoadError {
         let file = file.to_owned();
         match self {
-            Self::Invalid { object, cause } => LoadError::Invalid { file, object, cause },
+            Self::Invalid { object, cause } => LoadError::Invalid { file, object, cause: one_line(&cause) },
             Self::Cancelled => LoadError::Cancelled { file },
         }
     }
@@ -49,6 +49,11 @@ impl<T> About<T> for Result<T, String> {
     fn about(self, object: impl FnOnce() -> String) -> Result<T, Defect> {
         self.map_err(|cause| Defect::new(object(), cause))
     }
+}
+
+/// Texts of other libraries may have several lines; a sentence has one.
+pub(in crate::scene::load) fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// How messages name an object: `mesh 3 "wheel"`.

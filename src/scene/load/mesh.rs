@@ -36,6 +36,10 @@ pub(super) fn load(source: &Source, index: usize, weights: &[f32]) -> Result<Loa
         let object = format!("{name}, primitive {number}");
         match primitive.mode {
             Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => {
+                if !primitive.attributes.contains_key(&Checked::Valid(Semantic::Positions)) {
+                    loaded.warnings.push(format!("{object}: it has no POSITION; it is left out"));
+                    continue;
+                }
                 let attributes = Attributes::new(source, object, primitive, weights, &mut loaded.warnings)?;
                 loaded.mesh.primitives.push(load_primitive(attributes, primitive, mode, &mut loaded.warnings)?);
             }

@@ -43,11 +43,11 @@ use std::path::Path;
 use gltf::json::Root;
 
 pub use error::LoadError;
-pub use options::OpenOptions;
+pub use options::{OpenOptions, SceneChoice};
 
 use self::{
     budget::Budget,
-    error::{Defect, label},
+    error::{Defect, one_line},
     nodes::Hierarchy,
     shapes::Shapes,
     source::Source,
@@ -75,9 +75,19 @@ pub fn open_with(path: &Path, options: &OpenOptions, progress: &Progress) -> Res
 /// Opens a file already in memory; `name` stands in for its path in messages. Without
 /// `base_dir`, nothing beside it can be read.
 pub fn open_bytes(name: &str, bytes: &[u8], base_dir: Option<&Path>, progress: &Progress) -> Result<Scene, LoadError> {
-    let options = OpenOptions::default();
+    open_bytes_with(name, bytes, base_dir, &OpenOptions::default(), progress)
+}
+
+/// [`open_bytes`], with choices.
+pub fn open_bytes_with(
+    name: &str,
+    bytes: &[u8],
+    base_dir: Option<&Path>,
+    options: &OpenOptions,
+    progress: &Progress,
+) -> Result<Scene, LoadError> {
     let budget = Budget::new(options.memory_budget_bytes);
-    let scene = read(bytes, base_dir, &options, &budget, progress).map_err(|defect| defect.in_file(name))?;
+    let scene = read(bytes, base_dir, options, &budget, progress).map_err(|defect| defect.in_file(name))?;
     Ok(Scene { name: name.to_owned(), ..scene })
 }
 
@@ -123,7 +133,7 @@ fn read(
         shown_scene,
         memory_bytes: budget.spent_bytes(),
         extensions: root.extensions_used.clone(),
-        warnings,
+        warnings: warnings.iter().map(|warning| one_line(warning)).collect(),
     })
 }
 
@@ -133,16 +143,16 @@ fn scene_names(root: &Root) -> Vec<String> {
 }
 
 fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<String>) -> Result<Option<usize>, Defect> {
-    let count = root.scenes.len();
-    let wanted = options.scene.or(root.scene.map(|scene| scene.value()));
-    if options.scene.is_some_and(|scene| scene >= count) {
-        let wanted = options.scene.unwrap_or_default();
-        return Err(Defect::new("scenes", format!("there are {count}, and number {wanted} (from 0) was asked for")));
+    let names = scene_names(root);
+    if let Some(wanted) = &options.scene {
+        let known = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+        let cause =
+            || format!("there is no {wanted}; the file holds {}", if known.is_empty() { "none" } else { &known });
+        return wanted.among(&names).map(Some).ok_or_else(|| Defect::new("scenes", cause()));
     }
-    let shown = wanted.or((count > 0).then_some(0));
-    if let Some(shown) = shown.filter(|_| count > 1) {
-        let name = label("scene", shown, root.scenes[shown].name.as_deref());
-        warnings.push(format!("the file holds {count} scenes; {name} is shown"));
+    let shown = root.scene.map(|scene| scene.value()).or((!names.is_empty()).then_some(0));
+    if let Some(shown) = shown.filter(|_| names.len() > 1) {
+        warnings.push(format!("the file holds {} scenes; \"{}\" is shown", names.len(), names[shown]));
     }
     Ok(shown)
 }

@@ -109,16 +109,15 @@ impl<'a> Source<'a> {
             .ok_or_else(|| format!("ends outside buffer {buffer} ({} bytes)", bytes.len()))
     }
 
-    /// All bytes of a buffer view, decompressed.
+    /// All bytes of a buffer view, decompressed. Causes leave its number out.
     pub fn view_bytes(&self, view: Index<View>) -> Result<&[u8], String> {
         if let Some(decoded) = self.decoded.get(&view.value()) {
-            let cause = |cause: &String| format!("lies in buffer view {view}, which cannot be decompressed: {cause}");
+            let cause = |cause: &String| format!("cannot be decompressed: {cause}");
             return decoded.as_ref().map(Vec::as_slice).map_err(cause);
         }
         let declared = self.root.buffer_views.get(view.value());
-        let declared = declared.ok_or_else(|| format!("lies in buffer view {view}, which does not exist"))?;
+        let declared = declared.ok_or_else(|| "does not exist".to_owned())?;
         let start = declared.byte_offset.unwrap_or_default().0;
         self.buffer_bytes(declared.buffer.value(), start, declared.byte_length.0)
-            .map_err(|cause| format!("lies in buffer view {view}, which {cause}"))
     }
 }

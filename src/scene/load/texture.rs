@@ -139,7 +139,11 @@ fn decode_images(source: &Source, progress: &Progress) -> Result<Vec<Result<Arc<
 fn decode(source: &Source, image: &Image) -> Result<RgbaImage, String> {
     match (&image.uri, image.buffer_view) {
         (Some(uri), _) => image_file::decode(&Target::of(uri, source.base_dir)?.read(source.budget)?, source.budget),
-        (None, Some(view)) => image_file::decode(source.view_bytes(view)?, source.budget),
+        (None, Some(view)) => {
+            let bytes =
+                source.view_bytes(view).map_err(|cause| format!("lies in buffer view {view}, which {cause}"))?;
+            image_file::decode(bytes, source.budget)
+        }
         (None, None) => Err("has no data".to_owned()),
     }
 }

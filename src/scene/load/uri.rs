@@ -49,14 +49,30 @@ pub(super) fn read_file(path: &Path, budget: &Budget) -> Result<Vec<u8>, String>
     std::fs::read(path).map_err(cannot)
 }
 
-/// What follows `data:`: `[type][;base64],payload`.
+/// What follows `data:`: `[type][;base64],payload`. Writers break long lines and percent-encode
+/// what need not be, so blanks are skipped and escapes undone.
 fn decode_data(data: &str) -> Result<Vec<u8>, String> {
     let Some((head, payload)) = data.split_once(',') else {
         return Err("has a data URI without a comma".to_owned());
     };
-    if head.ends_with(";base64") {
-        base64::decode(payload).map_err(|error| format!("has a data URI that is not base64: {error}"))
-    } else {
-        Ok(urlencoding::decode_binary(payload.as_bytes()).into_owned())
+    let payload = urlencoding::decode_binary(payload.as_bytes());
+    if !head.split(';').skip(1).any(|parameter| parameter.trim().eq_ignore_ascii_case("base64")) {
+        return Ok(payload.into_owned());
+    }
+    let digits: Vec<u8> = payload.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).collect();
+    base64::decode(digits).map_err(|error| format!("has a data URI that is not base64: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn data_uris_are_read_as_they_are_written() {
+        let decode = |uri| decode_data(uri).expect("decodes");
+        assert_eq!(decode("application/octet-stream;base64,aGk+"), b"hi>");
+        assert_eq!(decode(";charset=x; BASE64,aG\nk%2B "), b"hi>");
+        assert_eq!(decode("text/plain,h%69 %E2%99%BB"), "hi ♻".as_bytes());
+        assert!(decode_data("base64").is_err() && decode_data(";base64,a?").is_err());
     }
 }

@@ -15,7 +15,7 @@ use super::{BACKGROUND, NO_DEPTH, Palette, Picture, ViewParams, palette};
 use crate::data::grid::Grid;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, GpuTexture, RasterTarget, Recorder, Uniform};
 use crate::scene::{AlphaMode, Material, Motion, Object, OrbitCamera, Pose, Primitive};
-use crate::settings::Look;
+use crate::settings::{Hidden, Look};
 use crate::stages::transform::Matrix3x4;
 
 pub const ALPHA_OPAQUE: u32 = 0;
@@ -60,6 +60,8 @@ pub struct MeshView<'a> {
     pub camera: &'a OrbitCamera,
     pub grid: &'a Grid,
     pub look: &'a Look,
+    /// By object number.
+    pub hidden: &'a Hidden,
 }
 
 /// Draws what is uploaded of the scene as `pose` has it. Its matrices are overwritten at once: record
@@ -74,7 +76,7 @@ pub fn record(
 ) -> Result<(), GpuError> {
     frame.raster(attachments(target));
     let camera_from_world = DMat4::from_scale(DVec3::splat(1.0 / seen.grid.span)) * seen.camera.camera_from_world();
-    let matrices = Matrices::new(mesh, pose, &camera_from_world);
+    let matrices = Matrices::new(mesh, pose, &camera_from_world, seen.hidden);
     let bytes = size_of_val(&*matrices.rows) as u64;
     let buffer = mesh.matrices.ensure(gpu, "mesh matrices", bytes)?;
     gpu.write(&buffer, 0, bytemuck::cast_slice(&matrices.rows))?;
@@ -175,18 +177,22 @@ struct FirstMatrix {
 
 struct Matrices {
     rows: Vec<Matrix3x4>,
-    /// By object; `None` where one is not finite.
+    /// By object; `None` where it is hidden, or its matrix not finite.
     first: Vec<Option<FirstMatrix>>,
 }
 
 impl Matrices {
-    fn new(mesh: &MeshScene, pose: &Pose, camera_from_world: &DMat4) -> Self {
+    fn new(mesh: &MeshScene, pose: &Pose, camera_from_world: &DMat4, hidden: &Hidden) -> Self {
         let mut matrices = Self { rows: Vec::new(), first: Vec::new() };
         let mut skins: HashMap<usize, u32> = HashMap::new();
-        for (_, object) in &mesh.objects {
+        for (number, object) in &mesh.objects {
+            if hidden.contains(*number as usize) {
+                matrices.first.push(None);
+                continue;
+            }
             let node = matrices.rows.len() as u32;
-            let world_from_node = pose.world_from_node[object.node];
-            matrices.rows.push(rows(&(*camera_from_world * world_from_node)));
+            let camera_from_node = rows(&(*camera_from_world * pose.world_from_node[object.node]));
+            matrices.rows.push(camera_from_node);
             let mut first = FirstMatrix { node, joints: node };
             if let Motion::Skinned { skin } = object.motion {
                 first.joints = *skins.entry(skin).or_insert_with(|| {
@@ -198,7 +204,8 @@ impl Matrices {
             }
             // Which joints of a skin matter is known per vertex only; a rigid matrix always does.
             let is_rigid = !matches!(object.motion, Motion::Skinned { .. });
-            matrices.first.push((!is_rigid || world_from_node.is_finite()).then_some(first));
+            let is_finite = camera_from_node.rows.as_flattened().iter().all(|entry| entry.is_finite());
+            matrices.first.push((!is_rigid || is_finite).then_some(first));
         }
         matrices
     }

@@ -13,6 +13,7 @@ use crate::data::octree::Slot;
 use crate::data::packing::{pack_normal, pack_rgba8};
 use crate::gpu::{Gpu, GpuBuffer, GpuError};
 use crate::scene::{Material, Motion, Object, Primitive, Scene, TextureRef};
+use crate::settings::Hidden;
 
 /// Vertices of a batch, unless one primitive has more: 16 MiB, uploaded in one go.
 const BATCH_VERTICES: usize = 1 << 19;
@@ -67,6 +68,8 @@ pub struct MeshScene {
     pub(super) textures: Vec<Option<MeshTexture>>,
     pub(super) white: Option<MeshTexture>,
     pub(super) matrices: Slot,
+    /// What `waiting` was listed for; `None` before the first upload.
+    hidden: Option<Hidden>,
     waiting: Vec<Waiting>,
     uploader: Option<TextureUploader>,
 }
@@ -86,15 +89,6 @@ enum Waiting {
 impl MeshScene {
     /// Nothing is uploaded yet.
     pub fn new(scene: Arc<Scene>, objects: Vec<(u32, Object)>) -> Self {
-        let is_skinned = |object: &Object| matches!(object.motion, Motion::Skinned { .. });
-        let meshes = |skinned: bool| -> BTreeSet<usize> {
-            objects.iter().filter(|(_, o)| is_skinned(o) == skinned).map(|(_, object)| object.mesh).collect()
-        };
-        let (skinned, rigid) = (meshes(true), meshes(false));
-        let mut waiting = vec![Waiting::White];
-        waiting.extend(base_color_textures(&scene, rigid.union(&skinned)).into_iter().map(Waiting::Texture));
-        waiting.extend(batches(&scene, &skinned, true));
-        waiting.extend(batches(&scene, rigid.difference(&skinned), false));
         Self {
             places: scene.meshes.iter().map(|mesh| vec![None; mesh.primitives.len()]).collect(),
             textures: scene.textures.iter().map(|_| None).collect(),
@@ -103,13 +97,18 @@ impl MeshScene {
             batches: Vec::new(),
             white: None,
             matrices: Slot::default(),
-            waiting,
+            hidden: None,
+            waiting: Vec::new(),
             uploader: None,
         }
     }
 
-    /// Uploads for about `budget`; true once everything is there.
-    pub fn upload(&mut self, gpu: &Gpu, budget: Duration) -> Result<bool, GpuError> {
+    /// Uploads what objects that are not hidden need, for about `budget`; true once all of it is there.
+    pub fn upload(&mut self, gpu: &Gpu, hidden: &Hidden, budget: Duration) -> Result<bool, GpuError> {
+        if self.hidden.as_ref() != Some(hidden) {
+            self.waiting = self.missing(hidden);
+            self.hidden = Some(hidden.clone());
+        }
         let start = Instant::now();
         while let Some(next) = self.waiting.pop() {
             self.upload_one(gpu, next)?;
@@ -117,11 +116,27 @@ impl MeshScene {
                 break;
             }
         }
-        Ok(self.is_uploaded())
+        Ok(self.waiting.is_empty())
     }
 
-    pub fn is_uploaded(&self) -> bool {
-        self.waiting.is_empty()
+    /// What is shown and not uploaded. A mesh that skinned and rigid objects share counts as skinned.
+    fn missing(&self, hidden: &Hidden) -> Vec<Waiting> {
+        let is_skinned = |object: &Object| matches!(object.motion, Motion::Skinned { .. });
+        let skinned_at_all: BTreeSet<usize> =
+            self.objects.iter().filter(|(_, object)| is_skinned(object)).map(|(_, object)| object.mesh).collect();
+        let shown = self.objects.iter().filter(|(number, _)| !hidden.contains(*number as usize));
+        let meshes: BTreeSet<usize> = shown.map(|(_, object)| object.mesh).collect();
+        let (skinned, rigid): (Vec<usize>, Vec<usize>) = meshes.iter().partition(|mesh| skinned_at_all.contains(*mesh));
+        let mut waiting = Vec::new();
+        if self.white.is_none() {
+            waiting.push(Waiting::White);
+        }
+        let textures = base_color_textures(&self.scene, meshes.iter());
+        waiting.extend(textures.into_iter().filter(|&t| self.textures[t].is_none()).map(Waiting::Texture));
+        let is_missing = |&(mesh, primitive): &(usize, usize)| self.places[mesh][primitive].is_none();
+        waiting.extend(batches(&self.scene, skinned, true, is_missing));
+        waiting.extend(batches(&self.scene, rigid, false, is_missing));
+        waiting
     }
 
     fn upload_one(&mut self, gpu: &Gpu, next: Waiting) -> Result<(), GpuError> {
@@ -173,13 +188,18 @@ fn base_color_textures<'a>(scene: &Scene, meshes: impl Iterator<Item = &'a usize
     slots.map(|slot| slot.texture).filter(has_texels).collect()
 }
 
-fn batches<'a>(scene: &Scene, meshes: impl IntoIterator<Item = &'a usize>, skinned: bool) -> Vec<Waiting> {
+fn batches(
+    scene: &Scene,
+    meshes: Vec<usize>,
+    skinned: bool,
+    is_missing: impl Fn(&(usize, usize)) -> bool,
+) -> impl Iterator<Item = Waiting> {
     let mut batches: Vec<(usize, Vec<(usize, usize)>)> = Vec::new();
-    for &mesh in meshes {
+    for mesh in meshes {
         for (number, primitive) in scene.meshes[mesh].primitives.iter().enumerate() {
             let vertices = primitive.positions.len();
             // A primitive without joints in a skinned mesh follows its node; it is drawn rigidly.
-            if primitive.triangles.is_empty() {
+            if primitive.triangles.is_empty() || !is_missing(&(mesh, number)) {
                 continue;
             }
             match batches.last_mut() {
@@ -191,7 +211,7 @@ fn batches<'a>(scene: &Scene, meshes: impl IntoIterator<Item = &'a usize>, skinn
             }
         }
     }
-    batches.into_iter().map(|(_, primitives)| Waiting::Batch { primitives, skinned }).collect()
+    batches.into_iter().map(move |(_, primitives)| Waiting::Batch { primitives, skinned })
 }
 
 fn mesh_vertex(primitive: &Primitive, vertex: usize, slot: Option<TextureRef>) -> MeshVertex {

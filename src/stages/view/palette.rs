@@ -62,8 +62,9 @@ pub struct GhostColors {
     pub spill: [f32; 4],
 }
 
+/// Spill lies over holes like a haze: split voxels spill everywhere, and holes must show through.
 pub const GHOST_COLORS: GhostColors =
-    GhostColors { both: [0.4, 0.4, 0.4, 0.3], holes: [0.85, 0.03, 0.02, 0.95], spill: [0.03, 0.12, 0.9, 0.95] };
+    GhostColors { both: [0.4, 0.4, 0.4, 0.3], holes: [0.85, 0.03, 0.02, 0.95], spill: [0.03, 0.12, 0.9, 0.12] };
 
 pub fn linear_from_gamma(value: f64) -> f64 {
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }

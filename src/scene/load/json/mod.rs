@@ -24,6 +24,9 @@ use super::error::Defect;
 pub(super) fn read(text: &[u8], warnings: &mut Vec<String>) -> Result<Root, Defect> {
     let mut tree: Value =
         serde_json::from_slice(text).map_err(|error| Defect::new("document", format!("is not JSON: {error}")))?;
+    if !tree.is_object() {
+        return Err(Defect::new("document", "is not an object"));
+    }
     check_version(&tree, warnings)?;
     extensions::check_required(&tree)?;
     conformance::check(&tree, warnings);

@@ -1,0 +1,104 @@
+//! A row of the scene tree: a node's name, what it carries in a word each, and its menu.
+
+use egui::{Color32, Label, RichText, Ui};
+use egui_ltreeview::NodeConfig;
+
+use super::tree::TreePanel;
+use crate::app::commands::Command;
+use crate::app::{outline, theme};
+
+/// Laid out only where it is on screen.
+pub struct Row<'a> {
+    panel: TreePanel<'a>,
+    node: usize,
+    is_shown: bool,
+    /// `None`: a leaf. Else whether it is unfolded at first.
+    branch: Option<bool>,
+    commands: &'a mut Vec<Command>,
+}
+
+impl<'a> Row<'a> {
+    /// A node without what is below it.
+    pub fn leaf(panel: TreePanel<'a>, shown: &[bool], node: usize, commands: &'a mut Vec<Command>) -> Self {
+        Self { panel, node, is_shown: shown.get(node).copied().unwrap_or(true), branch: None, commands }
+    }
+
+    /// A node that rows of its children follow.
+    pub fn branch(
+        panel: TreePanel<'a>,
+        shown: &[bool],
+        node: usize,
+        is_unfolded: bool,
+        commands: &'a mut Vec<Command>,
+    ) -> Self {
+        Self { branch: Some(is_unfolded), ..Self::leaf(panel, shown, node, commands) }
+    }
+
+    /// From right to left.
+    fn tags(&self) -> impl Iterator<Item = (&'static str, Color32)> + use<> {
+        let node = &self.panel.prepared.scene.nodes[self.node];
+        let outline = self.panel.outline;
+        let tags = [
+            (outline.is_warned[self.node], "!", theme::WARNING),
+            (node.light.is_some(), "light", theme::TAG_LIGHT),
+            (node.camera.is_some(), "camera", theme::TAG_CAMERA),
+            (outline.is_joint[self.node], "joint", theme::TAG_JOINT),
+            (node.skin.is_some(), "skin", theme::TAG_JOINT),
+            (node.mesh.is_some(), "mesh", theme::ACCENT),
+        ];
+        tags.into_iter().filter(|(is_there, ..)| *is_there).map(|(_, tag, color)| (tag, color))
+    }
+}
+
+impl NodeConfig<usize> for Row<'_> {
+    fn id(&self) -> &usize {
+        &self.node
+    }
+
+    fn is_dir(&self) -> bool {
+        self.branch.is_some()
+    }
+
+    fn default_open(&self) -> bool {
+        self.branch == Some(true)
+    }
+
+    fn activatable(&self) -> bool {
+        true
+    }
+
+    fn label(&mut self, ui: &mut Ui) {
+        let mut text = RichText::new(outline::name(&self.panel.prepared.scene, self.node));
+        if !self.is_shown {
+            text = text.color(theme::WEAK).strikethrough();
+        }
+        ui.add(Label::new(text).selectable(false).truncate());
+    }
+
+    fn accessory(&mut self, ui: &mut Ui) {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for (tag, color) in self.tags() {
+            let color = if self.is_shown { color } else { theme::WEAK };
+            ui.add(Label::new(RichText::new(tag).color(color).small()).selectable(false));
+        }
+    }
+
+    fn has_context_menu(&self) -> bool {
+        true
+    }
+
+    fn context_menu(&mut self, ui: &mut Ui) {
+        let has_objects = self.panel.outline.contents[self.node].objects > 0;
+        for (enabled, name, command) in [
+            (true, if self.is_shown { "Hide" } else { "Show" }, Command::ToggleShown),
+            (has_objects, "Isolate", Command::Isolate),
+            (true, "Frame", Command::Frame),
+            (!self.panel.visibility.shows_all(), "Show all", Command::ShowAll),
+        ] {
+            if ui.add_enabled(enabled, egui::Button::new(name)).clicked() {
+                self.commands.extend([Command::Select(Some(self.node)), command]);
+                ui.close();
+            }
+        }
+    }
+}

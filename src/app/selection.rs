@@ -1,0 +1,58 @@
+//! What becomes of the node that is selected in the scene tree: hidden, shown alone, framed.
+
+use super::App;
+use super::journal::Severity;
+use super::outline;
+
+impl App {
+    pub(super) fn select(&mut self, node: Option<usize>) {
+        let Some(ready) = &self.scene else { return };
+        let nodes = ready.prepared.scene.nodes.len();
+        self.desk.tree.select(&ready.prepared.scene, node.filter(|node| *node < nodes));
+    }
+
+    /// Hides the selected node, or shows it again.
+    pub(super) fn toggle_shown(&mut self) {
+        let (Some(ready), Some(node)) = (&self.scene, self.desk.tree.selected) else { return };
+        let (scene, visibility) = (&ready.prepared.scene, &mut self.settings.visibility);
+        match visibility.shown_nodes(scene) {
+            Ok(shown) if shown[node] => visibility.hide(node),
+            Ok(_) => visibility.show(scene, node),
+            Err(error) => self.journal.tell(Severity::Error, error.to_string()),
+        }
+    }
+
+    /// Shows the selected node alone, if anything of it can be seen.
+    pub(super) fn isolate(&mut self) {
+        let (Some(ready), Some(node)) = (&self.scene, self.desk.tree.selected) else { return };
+        let scene = &ready.prepared.scene;
+        if ready.outline.contents[node].objects > 0 {
+            self.settings.visibility.isolate(scene, node);
+        } else {
+            let name = outline::name(scene, node);
+            self.journal
+                .tell(Severity::Warning, format!("Nothing of \"{name}\" could be shown alone: it has no mesh."));
+        }
+    }
+
+    /// Brings the selected node into view from the side that the camera looks from now; frames
+    /// everything where none is selected.
+    pub(super) fn frame_selected(&mut self) {
+        let (Some(ready), Some(node)) = (&self.scene, self.desk.tree.selected) else {
+            self.settings.look.camera = None;
+            return;
+        };
+        match ready.prepared.bounds_below(node, &self.settings.motion) {
+            Ok(Some(bounds)) => {
+                let mut camera = self.camera(self.view_px);
+                camera.frame(Some(bounds), f64::from(self.view_px[0]) / f64::from(self.view_px[1]));
+                self.settings.look.camera = Some(camera);
+            }
+            Ok(None) => {
+                let name = outline::name(&ready.prepared.scene, node);
+                self.journal.tell(Severity::Warning, format!("\"{name}\" is at no finite place in this pose."));
+            }
+            Err(error) => self.journal.tell(Severity::Error, error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Scenes that come, do not come, or are not waited for; and windows of odd sizes.
+
+use std::path::PathBuf;
+
+use egui::vec2;
+use egui_kittest::kittest::Queryable as _;
+use octolume::export::read_settings;
+
+use crate::files::Dropped;
+use crate::rig::{Window, assert_changed, difference, shared_models};
+
+impl Window {
+    fn drop_file(&mut self, file: PathBuf) {
+        self.0.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(file)));
+    }
+
+    /// Cancels what is going on as soon as the window offers to, which it does within a few frames.
+    fn cancel_at_once(&mut self) {
+        for _ in 0..10 {
+            if self.0.query_by_label("Cancel").is_none() {
+                self.0.step();
+            }
+        }
+        self.click("Cancel");
+    }
+}
+
+#[test]
+fn a_broken_file_is_told_in_a_note_and_the_log_and_the_scene_before_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("broken.glb");
+    std::fs::write(&file, b"glTF, but not really").expect("written");
+    let mut window = Window::open("courtyard");
+    let before = window.view();
+    window.drop_file(file);
+    window.settle();
+    assert_changed(&before, &window.view(), "the note over the view");
+    window.outlast_notes();
+    assert_eq!(difference(&before, &window.view()), 0, "the scene before");
+    assert!(window.0.query_all_by_label("courtyard").next().is_some());
+    assert_eq!(window.log_count("broken.glb"), 1, "one sentence that names the file");
+}
+
+#[test]
+fn cancelling_a_voxelization_keeps_the_voxels_that_are_there() {
+    let mut window = Window::open("courtyard");
+    let before = window.view();
+    window.click("Grid");
+    window.0.get_by_label("1024³ cells").click();
+    window.0.step();
+    window.cancel_at_once();
+    assert_eq!(window.app().settings().discretization.grid, 64);
+    assert_eq!(difference(&before, &window.view()), 0);
+    assert_eq!(window.log_count("Cancelled."), 1);
+}
+
+#[test]
+fn cancelling_a_large_file_keeps_the_scene_before() {
+    let Some(models) = shared_models() else { return };
+    let mut window = Window::open("courtyard");
+    let before = window.view();
+    window.drop_file(models.join("Sponza/Sponza.gltf"));
+    window.0.step();
+    window.cancel_at_once();
+    assert_eq!(difference(&before, &window.view()), 0);
+    assert!(window.0.query_all_by_label("courtyard").next().is_some());
+    assert_eq!(window.log_count("Cancelled."), 1);
+}
+
+#[test]
+fn a_view_without_room_is_left_empty_and_comes_back() {
+    let mut window = Window::open("courtyard");
+    for size in [vec2(640.0, 1000.0), vec2(1000.0, 60.0), vec2(1.0, 1.0)] {
+        window.0.set_size(size);
+        window.settle();
+        let rect = window.view_rect();
+        assert!(rect.width() < 20.0 || rect.height() < 20.0, "{size}: {rect}");
+    }
+    window.0.set_size(vec2(1000.0, 1000.0));
+    window.settle();
+    let view = window.view();
+    assert!(view.pixels().collect::<std::collections::HashSet<_>>().len() > 50, "a picture again");
+}
+
+#[test]
+fn another_scale_factor_draws_as_many_pixels_as_the_screen_has() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = Window::open("courtyard");
+    window.type_into("Save to", &folder.path().display().to_string());
+    for (scale, number) in [(2.0, 1), (0.5, 2), (1.25, 3)] {
+        window.0.set_pixels_per_point(scale);
+        window.settle();
+        window.click("Screenshot");
+        let size = window.view_rect().size() * scale;
+        let file = folder.path().join(format!("octolume-courtyard-{number}.png"));
+        let (_, size_px) = read_settings(&file).expect("a picture");
+        assert_eq!(size_px, Some([size.x, size.y].map(|edge| edge.round() as u32)), "{scale}");
+    }
+}
