@@ -35,7 +35,7 @@ struct Outcome {
 }
 
 /// The folder of real scenes, where there is one; the test passes without it.
-fn shared_gltf() -> Option<PathBuf> {
+pub fn shared_gltf() -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     ["../shared/gltf", "../../shared/gltf"].map(|path| root.join(path)).into_iter().find(|path| path.is_dir())
 }
