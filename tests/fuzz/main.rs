@@ -15,7 +15,7 @@ mod seeds;
 use std::time::Duration;
 
 use bolero::check;
-use bolero::generator::{TypeGenerator, TypeGeneratorWithParams, ValueGenerator, produce};
+use bolero::generator::{TypeGenerator, ValueGenerator, produce};
 use peak_alloc::PeakAlloc;
 
 use document::{BINARY_CHUNK, JSON_CHUNK, glb};

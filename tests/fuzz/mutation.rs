@@ -197,7 +197,7 @@ impl Mutation {
             }),
             Self::Accessor { accessor, member, number } => spoil_accessor(json, *accessor, *member, number.value()),
             Self::Float { at, number } if !binary.is_empty() => {
-                let at = usize::from(*at) % binary.len() & !3;
+                let at = (usize::from(*at) % binary.len()) & !3;
                 let bytes = number.value().to_le_bytes();
                 binary.iter_mut().skip(at).zip(bytes).for_each(|(byte, new)| *byte = new);
             }
