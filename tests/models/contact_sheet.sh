@@ -13,7 +13,7 @@ mkdir -p "$(dirname "$3")"
 sheet=$(realpath "$3")
 shift 3
 
-readonly SIZE=192x144 GRID=128 COLUMNS=11
+readonly SIZE=192x144 GRID=128 MOST_COLUMNS=11
 # Of a picture that shows nothing, the background.
 readonly EMPTY_COLOURS=1
 export OCTOLUME_CACHE_DIR=
@@ -28,9 +28,10 @@ fail() {
 
 # The folder's name, or the file's where a folder holds several models.
 label() {
-    local siblings=("$folder/${1%/*}"/*.gl[tb]*)
-    local stem=${1##*/}
-    if ((${#siblings[@]} == 1)); then echo "${1%/*}"; else echo "${stem%.*}"; fi
+    local inside stem=${1##*/}
+    inside=$(dirname "$1")
+    local siblings=("$folder/$inside"/*.gl[tb]*)
+    if [[ $inside != . ]] && ((${#siblings[@]} == 1)); then echo "$inside"; else echo "${stem%.*}"; fi
 }
 
 failed=0
@@ -50,8 +51,10 @@ while IFS= read -r -d '' model; do
 done < <(find "$folder" -name invalid -prune -o \( -name '*.gltf' -o -name '*.glb' \) -print0 | sort -z)
 
 ((${#tiles[@]} > 0)) || { echo "contact_sheet.sh: no model under $folder" >&2; exit 1; }
+models=$((${#tiles[@]} / 3))
+columns=$((models < MOST_COLUMNS ? models : MOST_COLUMNS))
 font=$(convert -list font | awk '$1 == "Font:" && !found { print $2; found = 1 }')
 [[ -n $font ]] || { echo "contact_sheet.sh: ImageMagick finds no font for the names" >&2; exit 1; }
-montage -font "$font" -pointsize 11 -background '#202024' -fill '#d0d0d8' "${tiles[@]}" -tile "${COLUMNS}x" -geometry "$SIZE+4+4" "$sheet"
-echo "$((${#tiles[@]} / 3)) models on $sheet" >&2
+montage -font "$font" -pointsize 11 -background '#202024' -fill '#d0d0d8' "${tiles[@]}" -tile "${columns}x" -geometry "$SIZE+4+4" "$sheet"
+echo "$models models on $sheet" >&2
 exit "$failed"
