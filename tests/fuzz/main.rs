@@ -5,6 +5,7 @@
 //! few thousand inputs; `OCTOLUME_FUZZ_SECONDS=1800 cargo test --test fuzz` tries for that long.
 //! A finding is written to the target folder, and becomes a test in `tests/suite/hostile.rs`.
 
+mod amplifiers;
 #[allow(dead_code)]
 #[path = "../suite/document.rs"]
 mod document;
@@ -49,7 +50,7 @@ fn bytes() {
     limited!(check!()).with_generator((produce(), few::<Edit>())).for_each(|(seed, edits): &(u8, Vec<Edit>)| {
         let mut file = files[usize::from(*seed) % files.len()].clone();
         edits.iter().for_each(|edit| edit.apply(&mut file));
-        oracle::check(&file);
+        oracle::check(&oracle::turn(), &file);
     });
 }
 
@@ -61,7 +62,7 @@ fn documents() {
             let (mut json, binary) = documents[usize::from(*seed) % documents.len()].parts();
             let mut binary = binary.to_vec();
             mutations.iter().for_each(|mutation| mutation.apply(&mut json, &mut binary));
-            oracle::check(&glb(&[(JSON_CHUNK, json.to_string().as_bytes()), (BINARY_CHUNK, &binary)]));
+            oracle::check(&oracle::turn(), &glb(&[(JSON_CHUNK, json.to_string().as_bytes()), (BINARY_CHUNK, &binary)]));
         },
     );
 }

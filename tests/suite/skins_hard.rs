@@ -12,7 +12,7 @@ use octolume::engine::Engine;
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::Scene;
-use octolume::settings::{Discretization, Filter, Settings};
+use octolume::settings::{Discretization, Filter, Hidden, Settings};
 
 use crate::device::open;
 use crate::skin_rig::{ChainRig, Root};
@@ -147,8 +147,9 @@ fn moved_voxels_are_where_the_surface_is() {
         settings.motion.time_secs = 1.0;
         settings.look.view = octolume::settings::View::Voxels;
         let moved = moved_cells(&mut engine, &prepared, &settings);
-        let exact = prepared.exact_voxels(&settings.motion, &Progress::default()).expect("not cancelled");
-        let exact: BTreeSet<[i32; 3]> = exact.iter().map(|voxel| cell_of(voxel.key)).collect();
+        let exact =
+            prepared.exact_voxels(&settings.motion, &Hidden::default(), &Progress::default()).expect("not cancelled");
+        let exact: BTreeSet<[i32; 3]> = exact.voxels.iter().map(|voxel| cell_of(voxel.key)).collect();
         assert!(exact.len() > 300, "{name}: {} cells", exact.len());
         let holes = exact.iter().filter(|&&cell| !has_neighbour(&moved, cell)).count();
         let spill = moved.iter().filter(|&&cell| !has_neighbour(&exact, cell)).count();
