@@ -11,7 +11,9 @@
 mod built_octree;
 mod picture;
 mod read_voxels;
+mod record;
 mod report;
+mod run;
 mod scene_on_gpu;
 mod steps;
 
@@ -33,8 +35,9 @@ pub use built_octree::BuiltOctree;
 use picture::ExactMasks;
 pub use read_voxels::WorldVoxels;
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
+use run::{Comparison, FrameTimings, Running};
 use scene_on_gpu::SceneOnGpu;
-use steps::{Running, Step};
+use steps::Step;
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EngineError {
@@ -72,12 +75,12 @@ pub struct Engine {
     other: BuiltOctree,
     exact_bits: Option<(Arc<ExactVoxels>, GpuBuffer)>,
     comparison_counts: Slot,
-    comparison: steps::Comparison,
+    comparison: Comparison,
     exact_masks: ExactMasks,
     picture: Option<Picture>,
     mesh: Option<MeshScene>,
     mesh_depth: Option<GpuTexture>,
-    timings: steps::FrameTimings,
+    timings: FrameTimings,
 }
 
 /// One request, with its pose folded.
@@ -140,8 +143,8 @@ impl Engine {
             other: BuiltOctree::default(),
             exact_bits: None,
             comparison_counts: Slot::default(),
-            comparison: steps::Comparison::default(),
-            timings: steps::FrameTimings::default(),
+            comparison: Comparison::default(),
+            timings: FrameTimings::default(),
         }
     }
 
@@ -161,8 +164,8 @@ impl Engine {
         self.exact_bits = None;
         self.exact_masks = ExactMasks::default();
         self.mesh = None;
-        self.comparison = steps::Comparison::default();
-        self.timings = steps::FrameTimings::default();
+        self.comparison = Comparison::default();
+        self.timings = FrameTimings::default();
         self.prepared = prepared;
     }
 

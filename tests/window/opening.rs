@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use egui::vec2;
 use egui_kittest::kittest::Queryable as _;
 use octolume::export::read_settings;
+use serde_json::{Value, json};
 
-use crate::files::Dropped;
+use crate::files::{Dropped, write};
 use crate::rig::{Window, assert_changed, difference, shared_models};
 
 impl Window {
@@ -96,4 +97,25 @@ fn another_scale_factor_draws_as_many_pixels_as_the_screen_has() {
         let (_, size_px) = read_settings(&file).expect("a picture");
         assert_eq!(size_px, Some([size.x, size.y].map(|edge| edge.round() as u32)), "{scale}");
     }
+}
+
+#[test]
+fn of_several_scenes_in_a_file_another_can_be_shown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let nodes = vec![json!({ "mesh": 0 }), json!({ "mesh": 0, "rotation": [0.0, 0.6, 0.0, 0.8] })];
+    let file = write(folder.path(), "scenes", &[0, 1], nodes, None);
+    let mut document: Value = serde_json::from_slice(&std::fs::read(&file).expect("read")).expect("JSON");
+    document["scenes"] = json!([{ "name": "day", "nodes": [0] }, { "name": "night", "nodes": [1] }]);
+    std::fs::write(&file, document.to_string()).expect("written");
+    let mut window = Window::open(&file.display().to_string());
+    assert_eq!(window.log_count("\"day\" is shown"), 1);
+    window.outlast_notes();
+    let day = window.view();
+    window.click("Shown");
+    window.0.get_by_label("night").click();
+    window.0.step();
+    window.settle();
+    window.outlast_notes();
+    assert_changed(&day, &window.view(), "the other scene");
+    assert_eq!(window.log_count("Opened scenes"), 2);
 }

@@ -72,7 +72,7 @@ fn scenes_ui(ui: &mut Ui, prepared: &Prepared) -> Option<Command> {
     let shown = prepared.scene.shown_scene.filter(|_| names.len() > 1)?;
     let mut chosen = shown;
     ui.horizontal(|ui| {
-        let name = ui.label(RichText::new("Scene").color(theme::WEAK));
+        let name = ui.label(RichText::new("Shown").color(theme::WEAK));
         let combo = ComboBox::from_id_salt("scene of the file").selected_text(&names[shown]);
         let combo = combo.show_ui(ui, |ui| {
             for (number, name) in names.iter().enumerate() {

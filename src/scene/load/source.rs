@@ -88,14 +88,12 @@ impl<'a> Source<'a> {
             .filter_map(|(index, view)| Some((index, meshopt::Compressed::of(view)?)))
             .collect();
         progress.add_total(compressed.len() as u64);
-        let decoded: Vec<Result<(usize, Result<Vec<u8>, String>), Defect>> = (compressed.par_iter())
-            .map(|(index, compressed)| {
-                let bytes = compressed.decode(self);
-                progress.advance(1)?;
-                Ok((*index, bytes))
-            })
-            .collect();
-        self.decoded = decoded.into_iter().collect::<Result<_, _>>()?;
+        let decoded = compressed.par_iter().map(|(index, compressed)| {
+            let bytes = compressed.decode(self);
+            progress.advance(1)?;
+            Ok((*index, bytes))
+        });
+        self.decoded = decoded.collect::<Result<Vec<_>, Defect>>()?.into_iter().collect();
         Ok(())
     }
 

@@ -48,7 +48,8 @@ fn walk(value: &mut Value, steps: &[&str], path: &mut Vec<String>, act: &mut dyn
         }
         Value::Object(members) if *step == "*" => members.retain(|key, item| enter(key.clone(), item)),
         Value::Object(members) => {
-            if members.get_mut(*step).is_some_and(|item| !enter((*step).to_owned(), item)) {
+            let is_kept = members.get_mut(*step).is_none_or(|item| enter((*step).to_owned(), item));
+            if !is_kept {
                 members.remove(*step);
             }
         }
