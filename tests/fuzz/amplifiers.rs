@@ -89,6 +89,16 @@ fn one_list_read_many_times() {
 fn crowds() {
     let turn = oracle::turn();
     let mut document = Document::with_triangle();
+    document.json["buffers"] = crowd(|_| json!({ "byteLength": 36 }));
+    check(&turn, "buffers", &document);
+    let views = document.json["bufferViews"][0].clone();
+    document.json["bufferViews"] = crowd(|_| views.clone());
+    check(&turn, "buffer views", &document);
+    document.json["images"] = crowd(|_| json!({ "uri": "no.png" }));
+    document.json["textures"] = crowd(|number| json!({ "source": number }));
+    check(&turn, "images", &document);
+
+    let mut document = Document::with_triangle();
     document.json["nodes"] = crowd(|_| json!({}));
     check(&turn, "nodes", &document);
     document.json["nodes"] = crowd(|_| json!({ "mesh": 0 }));

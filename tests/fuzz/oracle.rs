@@ -45,7 +45,10 @@ pub fn check(_: &Turn, file: &[u8]) {
     let taken = ALLOCATOR.peak_usage().saturating_sub(before) as u64;
     assert!(taken <= MEMORY_BUDGET_BYTES + MEMORY_SLACK_BYTES, "{taken} bytes for a file of {}", file.len());
     match opened {
-        Ok(scene) => show(scene),
+        Ok(scene) => {
+            assert_eq!(scene.warnings.iter().find(|warning| warning.contains('\n')), None, "a sentence is one line");
+            show(scene);
+        }
         Err(error) => {
             let sentence = error.to_string();
             let cause = sentence.strip_prefix("input.glb: ").unwrap_or_default();
