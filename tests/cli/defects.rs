@@ -79,7 +79,7 @@ const WORDS: [(&str, &[&str]); 86] = [
     ("SCENE_NON_ROOT_NODE", &["not a root"]),
     ("SKIN_IBM_INVALID_FORMAT", &["inverse bind matrices"]),
     ("SKIN_NO_COMMON_ROOT", &["root"]),
-    ("TYPE_MISMATCH", &["invalid type"]),
+    ("TYPE_MISMATCH", &["invalid type", "is not an object"]),
     ("UNDECLARED_EXTENSION", &["extensionsUsed"]),
     ("UNDEFINED_PROPERTY", &["missing field", "has no", "without a cone"]),
     ("UNEXPECTED_EXTENSION_OBJECT", &["does not belong there"]),
