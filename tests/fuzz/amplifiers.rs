@@ -172,6 +172,28 @@ fn pictures() {
     check(&turn, "KTX2", &document);
 }
 
+/// One picture of 4 MB that a thousand materials would each convert into others.
+#[test]
+fn one_picture_in_many_materials() {
+    let turn = oracle::turn();
+    let mut png = std::io::Cursor::new(Vec::new());
+    let picture = image::RgbaImage::from_pixel(1024, 1024, image::Rgba([200, 100, 50, 128]));
+    picture.write_to(&mut png, image::ImageFormat::Png).expect("written to memory");
+    let mut document = Document::with_triangle().with_texture(png.get_ref(), "image/png");
+    let slot = json!({ "index": 0 });
+    let look = |number: usize| {
+        let glossiness = number as f64 / 1000.0;
+        json!({ "diffuseTexture": slot, "specularGlossinessTexture": slot, "glossinessFactor": glossiness })
+    };
+    let materials =
+        (0..1000).map(|number| json!({ "extensions": { "KHR_materials_pbrSpecularGlossiness": look(number) } }));
+    document.json["materials"] = materials.collect();
+    document.json["extensionsUsed"] = json!(["KHR_materials_pbrSpecularGlossiness"]);
+    check(&turn, "specular and glossiness", &document);
+    document.json["textures"] = vec![json!({ "source": 0 }); 1000].into();
+    check(&turn, "textures", &document);
+}
+
 /// As PNG has it.
 fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, byte| {

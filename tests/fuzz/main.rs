@@ -3,13 +3,16 @@
 //! Whatever the input, opening it ends soon with a scene or a sentence, without a panic and within
 //! the memory that was allowed; an opened scene can be posed and voxelized. `cargo test` tries a
 //! few thousand inputs; `OCTOLUME_FUZZ_SECONDS=1800 cargo test --test fuzz` tries for that long.
-//! A finding is written to the target folder, and becomes a test in `tests/suite/hostile.rs`.
+//! A finding is written to the target folder, and stays as a case of `amplifiers` or `findings`.
 
 mod amplifiers;
-#[allow(dead_code)]
+#[allow(dead_code, reason = "the other tests use the rest")]
 #[path = "../suite/document.rs"]
 mod document;
+mod edit;
+mod looks;
 mod mutation;
+mod odd;
 mod oracle;
 mod seeds;
 
@@ -20,7 +23,8 @@ use bolero::generator::{TypeGenerator, ValueGenerator, produce};
 use peak_alloc::PeakAlloc;
 
 use document::{BINARY_CHUNK, JSON_CHUNK, glb};
-use mutation::{Edit, Mutation};
+use edit::Edit;
+use mutation::Mutation;
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;

@@ -1,55 +1,9 @@
-//! Ways to spoil a file: its bytes, the members of its document, the numbers of its accessors.
+//! Ways to spoil a document: its members, the numbers of its accessors, its buffer.
 
 use bolero::TypeGenerator;
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 
-/// A change of raw bytes. Places count from the start and wrap around.
-#[derive(Clone, Debug, TypeGenerator)]
-pub enum Edit {
-    Set { at: u16, to: u8 },
-    Flip { at: u16, bit: u8 },
-    Word { at: u16, to: Number },
-    Insert { at: u16, bytes: [u8; 3] },
-    Remove { at: u16, count: u8 },
-    Cut { keep: u16 },
-}
-
-impl Edit {
-    pub fn apply(&self, bytes: &mut Vec<u8>) {
-        if bytes.is_empty() {
-            return;
-        }
-        let place = |at: u16| usize::from(at) % bytes.len();
-        match *self {
-            Self::Set { at, to } => {
-                let at = place(at);
-                bytes[at] = to;
-            }
-            Self::Flip { at, bit } => {
-                let at = place(at);
-                bytes[at] ^= 1 << (bit % 8);
-            }
-            Self::Word { at, ref to } => {
-                let at = place(at) & !3;
-                let word = (to.value().as_f64().unwrap_or(0.0) as i64 as u32).to_le_bytes();
-                bytes.iter_mut().skip(at).zip(word).for_each(|(byte, new)| *byte = new);
-            }
-            Self::Insert { at, bytes: new } => {
-                let at = place(at);
-                bytes.splice(at..at, new);
-            }
-            Self::Remove { at, count } => {
-                let at = place(at);
-                let end = (at + usize::from(count)).min(bytes.len());
-                bytes.drain(at..end);
-            }
-            Self::Cut { keep } => {
-                let keep = place(keep);
-                bytes.truncate(keep);
-            }
-        }
-    }
-}
+use crate::odd::{Float, Number, Odd};
 
 /// A change of a document or its buffer. A place is a value of the tree, counted in the order of its
 /// text.
@@ -102,46 +56,6 @@ pub enum Mutation {
     },
 }
 
-/// A value that has no business there.
-#[derive(Clone, Debug, TypeGenerator)]
-pub enum Odd {
-    Null,
-    True,
-    Text,
-    LongText,
-    List,
-    Object,
-    Nested { depth: u8 },
-    Small { number: i8 },
-    Number(Number),
-}
-
-#[derive(Clone, Debug, TypeGenerator)]
-pub enum Number {
-    Zero,
-    MinusOne,
-    Half,
-    Byte { value: u8 },
-    Short { value: u16 },
-    Million,
-    HalfWord,
-    Word,
-    Long,
-    Huge,
-    Tiny,
-    Component { which: u8 },
-}
-
-#[derive(Clone, Debug, TypeGenerator)]
-pub enum Float {
-    Nan,
-    Infinite,
-    Largest,
-    Smallest,
-    Far,
-    Zero,
-}
-
 /// Members that change how others are read.
 const NAMES: [&str; 24] = [
     "sparse",
@@ -171,9 +85,6 @@ const NAMES: [&str; 24] = [
 ];
 
 const ACCESSOR_MEMBERS: [&str; 5] = ["byteOffset", "count", "componentType", "bufferView", "normalized"];
-
-/// 5124 is not one.
-const COMPONENT_TYPES: [u32; 7] = [5120, 5121, 5122, 5123, 5124, 5125, 5126];
 
 impl Mutation {
     pub fn apply(&self, json: &mut Value, binary: &mut Vec<u8>) {
@@ -207,54 +118,6 @@ impl Mutation {
             }
             Self::Cut { keep } => binary.truncate(usize::from(*keep)),
             Self::Float { .. } | Self::Byte { .. } => {}
-        }
-    }
-}
-
-impl Odd {
-    fn value(&self) -> Value {
-        match self {
-            Self::Null => Value::Null,
-            Self::True => json!(true),
-            Self::Text => json!("data:,%zz"),
-            Self::LongText => json!("\u{10ffff}".repeat(1000)),
-            Self::List => json!([]),
-            Self::Object => Value::Object(Map::new()),
-            Self::Nested { depth } => (0..*depth).fold(json!(0), |inner, _| json!([inner])),
-            Self::Small { number } => json!(number),
-            Self::Number(number) => number.value(),
-        }
-    }
-}
-
-impl Number {
-    fn value(&self) -> Value {
-        match *self {
-            Self::Zero => json!(0),
-            Self::MinusOne => json!(-1),
-            Self::Half => json!(0.5),
-            Self::Byte { value } => json!(value),
-            Self::Short { value } => json!(value),
-            Self::Million => json!(1_000_000),
-            Self::HalfWord => json!(1_u32 << 31),
-            Self::Word => json!(u32::MAX),
-            Self::Long => json!(u64::MAX),
-            Self::Huge => json!(1e300),
-            Self::Tiny => json!(1e-300),
-            Self::Component { which } => json!(COMPONENT_TYPES[usize::from(which) % COMPONENT_TYPES.len()]),
-        }
-    }
-}
-
-impl Float {
-    fn value(&self) -> f32 {
-        match self {
-            Self::Nan => f32::NAN,
-            Self::Infinite => f32::NEG_INFINITY,
-            Self::Largest => f32::MAX,
-            Self::Smallest => f32::from_bits(1),
-            Self::Far => 1e30,
-            Self::Zero => 0.0,
         }
     }
 }
