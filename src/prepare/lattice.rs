@@ -69,8 +69,11 @@ impl Lattice {
 /// Cells left free around the scene, so that rounding touches no border.
 const MARGIN_CELLS: u32 = 1;
 
+/// Scenes this wide still have exact cell numbers in 32 bits, whatever is added to them.
+const MAX_SCENE_CELLS: f64 = (1 << 30) as f64;
+
 /// The grid around the scene's posed bounds, centred by whole cells.
-pub fn grid_around(bounds: Option<Aabb>, discretization: &Discretization) -> Result<Grid, PrepareError> {
+pub fn grid_around(scene: &str, bounds: Option<Aabb>, discretization: &Discretization) -> Result<Grid, PrepareError> {
     let cells = discretization.grid;
     if !Discretization::GRIDS.contains(&cells) {
         return Err(PrepareError::Grid(cells));
@@ -80,6 +83,11 @@ pub fn grid_around(bounds: Option<Aabb>, discretization: &Discretization) -> Res
     let span = discretization.span.unwrap_or(if fitting > 0.0 { fitting } else { 1.0 });
     if !(span.is_finite() && span > 0.0) {
         return Err(PrepareError::Span(span));
+    }
+    let cells_wide = size.max_element() / span;
+    if cells_wide.is_nan() || cells_wide > MAX_SCENE_CELLS {
+        let scene = scene.to_owned();
+        return Err(PrepareError::TooWide { scene, span, cells: cells_wide, limit: MAX_SCENE_CELLS });
     }
     // Rounded off-centre: scenes whose extents are simple ratios would sit on a tie, and a last-bit
     // difference in their bounds would shift the grid by a cell.

@@ -75,6 +75,10 @@ pub enum PrepareError {
     Object { scene: String, object: String, cause: VoxelizeError },
     #[error("the span is {0}; it must be a positive, finite number of scene units")]
     Span(f64),
+    #[error(
+        "{scene}: at a span of {span} it is {cells:.3e} cells wide, and {limit} is the limit; choose a larger span"
+    )]
+    TooWide { scene: String, span: f64, cells: f64, limit: f64 },
     #[error("the grid has {0} cells along an axis; it must be 64, 128, 256, 512 or 1024")]
     Grid(u32),
 }
@@ -108,7 +112,7 @@ pub fn prepare_with(
 ) -> Result<Prepared, PrepareError> {
     let started = Instant::now();
     let bounds = scene.bounds_over_time();
-    let grid = lattice::grid_around(bounds, discretization)?;
+    let grid = lattice::grid_around(&scene.name, bounds, discretization)?;
     let motion = scene.motion_report(grid.span);
     let mut warnings = scene.warnings.clone();
     warnings.extend(motion.warnings());

@@ -243,3 +243,36 @@ fn opening_can_be_cancelled() {
     scene::load::open_bytes("test.gltf", &Document::with_triangle().bytes(), None, &progress).expect("opens");
     assert_eq!(progress.fraction(), 1.0);
 }
+
+/// Whatever allocates by a number of the file asks the budget first, however often data is shared.
+#[test]
+fn what_would_take_too_much_is_refused_before_it_does() {
+    let options = scene::load::OpenOptions { memory_budget_bytes: 16 << 20, ..Default::default() };
+    let refusal = |document: &Document| {
+        let opened = scene::load::open_bytes_with("a.gltf", &document.bytes(), None, &options, &Progress::default());
+        opened.expect_err("refused").to_string()
+    };
+    let mut document = Document::with_triangle();
+    let times: Vec<f32> = (0..4096).map(|key| key as f32).collect();
+    let (input, output) = (document.floats("SCALAR", &times), document.floats("VEC3", &times.repeat(3)));
+    let channels: Vec<_> = (0..400)
+        .map(|_| json!({ "sampler": 0, "target": { "node": document.add("nodes", json!({})), "path": "scale" } }))
+        .collect();
+    document.add("animations", json!({ "samplers": [{ "input": input, "output": output }], "channels": channels }));
+    assert!(refusal(&document).contains("needs memory"), "{}", refusal(&document));
+
+    let mut document = Document::with_triangle();
+    document.json["materials"] = json!([[]]);
+    assert_eq!(document.refusal(), "test.gltf: material 0: is a list, and must be an object");
+
+    let mut document = Document::with_triangle();
+    let ones = document.view(&1.0_f32.to_le_bytes().repeat(3 << 16));
+    for _ in 0..64 {
+        document.add(
+            "accessors",
+            json!({ "bufferView": ones, "componentType": 5126, "type": "VEC3", "count": 1 << 16, "max": [1, 1, 1] }),
+        );
+    }
+    let scene = document.open().expect("opens");
+    assert_eq!(scene.warnings, ["accessors: they overlap so often that not all of their values were checked"]);
+}

@@ -207,3 +207,18 @@ fn a_static_object_at_rest_is_a_copy_of_its_cache() {
         assert_eq!(*found, Some(expected));
     }
 }
+
+/// Cell numbers have 32 bits; a node far away must not wrap them.
+#[test]
+fn a_scene_too_wide_for_its_span_is_refused() {
+    let mut scene = cube_scene(Trs::default());
+    scene.name = "far".to_owned();
+    let far = Trs { translation: DVec3::X * 1e30, ..Trs::default() };
+    scene.nodes.push(Node { mesh: Some(0), ..node(None, far) });
+    let discretization = Discretization { grid: 64, span: Some(1.0), ..Discretization::default() };
+    let error = prepare(Arc::new(scene), &discretization, None, &Progress::default()).expect_err("refused");
+    assert_eq!(
+        error.to_string(),
+        "far: at a span of 1 it is 1.000e30 cells wide, and 1073741824 is the limit; choose a larger span"
+    );
+}

@@ -109,6 +109,11 @@ impl<'a> Elements<'a> {
         Self { bytes: Cow::Borrowed(bytes), stride, component, normalized, count: bytes.len() / stride.max(1), lanes }
     }
 
+    /// Components of all elements.
+    pub fn number_count(&self) -> usize {
+        self.count.saturating_mul(self.lanes)
+    }
+
     pub fn is_u32(&self) -> bool {
         self.component == ComponentType::U32
     }

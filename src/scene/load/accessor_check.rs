@@ -16,9 +16,14 @@ use crate::progress::Progress;
 pub(super) fn check(source: &Source, progress: &Progress, warnings: &mut Vec<String>) -> Result<(), Defect> {
     let accessors = &source.root.accessors;
     progress.add_total(accessors.len() as u64);
+    let mut allowance = source.check_allowance_bytes();
+    let checked: Vec<bool> = accessors.iter().map(|accessor| take(&mut allowance, element_bytes(accessor))).collect();
+    if checked.contains(&false) {
+        warnings.push("accessors: they overlap so often that not all of their values were checked".to_owned());
+    }
     let found: Vec<Result<Vec<String>, Defect>> = (accessors.par_iter().enumerate())
         .map(|(index, accessor)| {
-            let defects = defects(source, accessor);
+            let defects = defects(source, accessor, checked[index]);
             progress.advance(1)?;
             let object = label("accessor", index, accessor.name.as_deref());
             Ok(defects.into_iter().map(|defect| format!("{object}: it {defect}")).collect())
@@ -32,9 +37,25 @@ pub(super) fn check(source: &Source, progress: &Progress, warnings: &mut Vec<Str
     Ok(())
 }
 
-fn defects(source: &Source, accessor: &Accessor) -> Vec<String> {
+/// Whether so much of the allowance is left; it is gone then.
+pub(super) fn take(allowance: &mut u64, bytes: u64) -> bool {
+    let rest = allowance.checked_sub(bytes);
+    *allowance = rest.unwrap_or(*allowance);
+    rest.is_some()
+}
+
+/// What all its elements take, whether they are there or not.
+pub(super) fn element_bytes(accessor: &Accessor) -> u64 {
+    let (Checked::Valid(component), Checked::Valid(shape)) = (&accessor.component_type, &accessor.type_) else {
+        return 0;
+    };
+    accessor.count.0.saturating_mul((component.0.size() * shape.multiplicity()) as u64)
+}
+
+fn defects(source: &Source, accessor: &Accessor, with_values: bool) -> Vec<String> {
     let mut defects: Vec<String> = misplaced(source, accessor).into_iter().collect();
-    if accessor.buffer_view.is_none() && accessor.sparse.is_none() {
+    let is_stored = accessor.buffer_view.is_some() || accessor.sparse.is_some();
+    if !is_stored || !with_values {
         return defects; // all zero, or out of a Draco stream
     }
     let elements = match source.elements_of(accessor) {

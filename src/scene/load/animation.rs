@@ -104,6 +104,9 @@ fn read_channel(
         Checked::Invalid => return Err("has an unknown interpolation".to_owned()),
     };
     let input = source.elements(sampler.input)?;
+    // Every channel has its own copy, however many share one sampler.
+    let numbers = source.elements(sampler.output)?.number_count().saturating_add(input.count);
+    source.budget.spend_on(numbers, size_of::<f64>())?;
     let times: Vec<[f32; 1]> = input.floats(0..input.count)?;
     let times_secs: Vec<f64> = times.into_iter().map(|[time]| f64::from(time)).collect();
     let output = source.elements(sampler.output)?;

@@ -97,6 +97,16 @@ impl<'a> Source<'a> {
         Ok(())
     }
 
+    /// Bytes that checks may look at beyond what reading the scene needs: accessors may overlap, and
+    /// a small file can declare so many that looking at each takes hours.
+    pub fn check_allowance_bytes(&self) -> u64 {
+        const LOOKS_AT_EACH_BYTE: u64 = 16;
+        const LEAST: u64 = 1 << 20;
+        let stored = self.buffers.iter().flatten().map(|bytes| bytes.len() as u64);
+        let decoded = self.decoded.values().flatten().map(|bytes| bytes.len() as u64);
+        stored.chain(decoded).sum::<u64>().saturating_mul(LOOKS_AT_EACH_BYTE).max(LEAST)
+    }
+
     /// Bytes of a buffer, from `start`; errors are causes.
     pub fn buffer_bytes(&self, buffer: usize, start: u64, length: u64) -> Result<&[u8], String> {
         let bytes = self.buffers.get(buffer).ok_or_else(|| format!("buffer {buffer} does not exist"))?;

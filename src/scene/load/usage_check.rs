@@ -1,7 +1,7 @@
 //! How accessors are used: what glTF asks of one that holds positions, indices or key times, and
 //! that reading them would not notice. Each defect is a warning.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use gltf::json::{
     Accessor, Index,
@@ -10,12 +10,23 @@ use gltf::json::{
     validation::Checked,
 };
 
-use super::{error::label, json::Few, source::Source};
+use super::{
+    accessor_check::{element_bytes, take},
+    error::label,
+    json::Few,
+    source::Source,
+};
 
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 pub(super) fn check(source: &Source, warnings: &mut Vec<String>) {
-    let mut check = Check { source, few: Few::default(), vertex_accessors: HashMap::new() };
+    let mut check = Check {
+        source,
+        few: Few::default(),
+        vertex_accessors: HashMap::new(),
+        indices: HashSet::new(),
+        allowance_bytes: source.check_allowance_bytes(),
+    };
     check.views();
     for (index, mesh) in source.root.meshes.iter().enumerate() {
         for (number, primitive) in mesh.primitives.iter().enumerate() {
@@ -31,6 +42,9 @@ struct Check<'a> {
     few: Few,
     /// By buffer view: the first accessor of vertex data in it.
     vertex_accessors: HashMap<usize, usize>,
+    /// Index accessors that were looked at, and what may be looked at yet.
+    indices: HashSet<usize>,
+    allowance_bytes: u64,
 }
 
 impl Check<'_> {
@@ -142,6 +156,10 @@ impl Check<'_> {
             ComponentType::U16 => u32::from(u16::MAX),
             _ => u32::MAX,
         };
+        let bytes = element_bytes(self.accessor(index));
+        if !self.indices.insert(index.value()) || !take(&mut self.allowance_bytes, bytes) {
+            return;
+        }
         let Ok(elements) = self.source.elements(index) else { return };
         let Ok(rows) = elements.unsigned::<1>(0..elements.count) else { return };
         if rows.contains(&[restart]) {

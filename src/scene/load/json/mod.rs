@@ -27,6 +27,7 @@ pub(super) fn read(text: &[u8], warnings: &mut Vec<String>) -> Result<Root, Defe
     if !tree.is_object() {
         return Err(Defect::new("document", "is not an object"));
     }
+    check_objects(&tree)?;
     check_version(&tree, warnings)?;
     extensions::check_required(&tree)?;
     conformance::check(&tree, warnings);
@@ -43,10 +44,32 @@ pub(super) fn read(text: &[u8], warnings: &mut Vec<String>) -> Result<Root, Defe
     })
 }
 
+/// Where glTF has an object, nothing else will do: the typed document would take an empty list for one
+/// with nothing in it.
+fn check_objects(tree: &Value) -> Result<(), Defect> {
+    const OBJECTS: [&str; 6] = [
+        "*/*",
+        "extensions/*/*/*",
+        "meshes/*/primitives/*",
+        "meshes/*/primitives/*/targets/*",
+        "animations/*/channels/*",
+        "animations/*/samplers/*",
+    ];
+    let mut other = None;
+    for pattern in OBJECTS {
+        tree::visit(tree, pattern, &mut |path, value| {
+            if value.is_array() {
+                other.get_or_insert_with(|| tree::object_at(tree, path));
+            }
+        });
+    }
+    other.map_or(Ok(()), |object| Err(Defect::new(object, "is a list, and must be an object")))
+}
+
 /// At most what the tree and the typed document of a text take: a member costs a node of a search
 /// tree, an item a value, an object of three bytes becomes one with dozens of empty members.
 pub(super) fn memory_bytes(text: &[u8]) -> u64 {
-    const OBJECT_BYTES: u64 = 1024;
+    const OBJECT_BYTES: u64 = 4096;
     const ITEM_BYTES: u64 = 64;
     let price = |byte: &u8| match byte {
         b'{' => OBJECT_BYTES,
