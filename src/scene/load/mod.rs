@@ -133,8 +133,18 @@ fn read(
         shown_scene,
         memory_bytes: budget.spent_bytes(),
         extensions: root.extensions_used.clone(),
-        warnings: warnings.iter().map(|warning| one_line(warning)).collect(),
+        warnings: readable(&warnings),
     })
+}
+
+/// A line each, and not more than a person reads.
+fn readable(warnings: &[String]) -> Vec<String> {
+    const MOST: usize = 200;
+    let mut readable: Vec<String> = warnings.iter().take(MOST).map(|warning| one_line(warning)).collect();
+    if warnings.len() > MOST {
+        readable.push(format!("{} more warnings about the file", warnings.len() - MOST));
+    }
+    readable
 }
 
 fn scene_names(root: &Root) -> Vec<String> {

@@ -20,12 +20,14 @@ use serde_json::Value;
 
 use super::error::Defect;
 
+const NOT_AN_OBJECT: &str = "cannot be read: invalid type: list, expected an object";
+
 /// Parses, repairs and types the document; what was repaired or is not as glTF has it is warned of.
 pub(super) fn read(text: &[u8], warnings: &mut Vec<String>) -> Result<Root, Defect> {
     let mut tree: Value =
         serde_json::from_slice(text).map_err(|error| Defect::new("document", format!("is not JSON: {error}")))?;
     if !tree.is_object() {
-        return Err(Defect::new("document", "is not an object"));
+        return Err(Defect::new("document", NOT_AN_OBJECT));
     }
     check_objects(&tree)?;
     check_version(&tree, warnings)?;
@@ -63,7 +65,7 @@ fn check_objects(tree: &Value) -> Result<(), Defect> {
             }
         });
     }
-    other.map_or(Ok(()), |object| Err(Defect::new(object, "is a list, and must be an object")))
+    other.map_or(Ok(()), |object| Err(Defect::new(object, NOT_AN_OBJECT)))
 }
 
 /// At most what the tree and the typed document of a text take: a member costs a node of a search
