@@ -137,7 +137,7 @@ fn take<T: AnyBitPattern + bytemuck::NoUninit>(bytes: &mut &[u8], count: u64) ->
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use glam::IVec3;
 
     use super::*;
@@ -156,7 +156,8 @@ mod tests {
         ContentKey::of(&input, &TextureHashes::new(&[]))
     }
 
-    fn cache() -> VoxelCache {
+    /// Three voxels with emission and joints.
+    pub fn cache() -> VoxelCache {
         let voxel = |position| CacheVoxel { position, normal: 0, albedo: 7, surface: 9 };
         VoxelCache {
             tiles: vec![Tile { origin: IVec3::new(-3, 4, 500), voxels: 0..3 }],

@@ -28,23 +28,11 @@ pub(super) fn fits(cache: &VoxelCache, input: &VoxelizeInput) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use glam::IVec3;
 
     use super::*;
-    use crate::data::voxel_cache::{CacheVoxel, VoxelJoints, VoxelizeReport};
+    use crate::disk_cache::entry::tests::cache;
     use crate::scene::{Material, Primitive};
     use crate::stages::voxelize::{TexturePyramids, VoxelizePart};
-
-    fn cache() -> VoxelCache {
-        let voxel = |position| CacheVoxel { position, normal: 0, albedo: 7, surface: 9 };
-        VoxelCache {
-            tiles: vec![Tile { origin: IVec3::new(-3, 4, 500), voxels: 0..3 }],
-            voxels: vec![voxel(0), voxel(1), voxel(1 << 10)],
-            emission: vec![[0.25, 0.5, 3.0]; 3],
-            joints: vec![VoxelJoints { joints: [2, 0, 1, 0], weights: [200, 50, 5, 0] }; 3],
-            report: VoxelizeReport { triangles: 2, ..VoxelizeReport::default() },
-        }
-    }
 
     #[test]
     fn voxels_that_cannot_be_the_inputs_are_refused() {

@@ -303,3 +303,8 @@ fn other_filter(filter: Filter) -> Filter {
         Filter::Split => Filter::Nearest,
     }
 }
+
+/// A buffer that a step reads and none before it has made.
+fn missing(label: &str) -> GpuError {
+    GpuError::Missing { label: label.to_owned() }
+}

@@ -3,12 +3,11 @@
 use std::sync::Arc;
 
 use super::built_octree::BuiltOctree;
-use super::run::Running;
 use super::scene_on_gpu::SceneOnGpu;
 use super::steps::Which;
-use super::{Engine, EngineError, Wanted, other_filter};
+use super::{Engine, EngineError, Wanted, missing, other_filter};
 use crate::gpu::{GpuBuffer, GpuError, Recorder};
-use crate::plan::Pass;
+use crate::plan::{FramePlan, Pass};
 use crate::stages::compare::compare_sets;
 use crate::stages::transform::{MovingVoxels, rigid, skinned};
 
@@ -31,20 +30,20 @@ impl Engine {
     }
 
     /// Object I-O, the frame's matrices, and the transform of what moved.
-    pub(super) fn record_move(&mut self, running: &Running) -> Result<Recorder, EngineError> {
+    pub(super) fn record_move(&mut self, wanted: &Wanted, plan: &FramePlan) -> Result<Recorder, EngineError> {
         // From here on nothing built before holds, also if this frame fails half-way.
         self.done.moved = false;
         self.done.octree = None;
         self.done.other = None;
         let scene = self.scene.as_mut().ok_or(EngineError::NoScene)?;
-        scene.set_frame(&self.gpu, &running.wanted.frame)?;
+        scene.set_frame(&self.gpu, &wanted.frame)?;
         let grid = scene.grid_cells();
         let mut frame = Recorder::default();
         let voxels = self.voxels()?;
-        if running.plan.runs(Pass::TransformRigid) {
+        if plan.runs(Pass::TransformRigid) {
             rigid::record(&self.gpu, &mut frame, &voxels, grid);
         }
-        if running.plan.runs(Pass::TransformSkinned) {
+        if plan.runs(Pass::TransformSkinned) {
             let joints = voxels.cache_joints.as_ref().ok_or_else(|| missing("cache joints"))?;
             skinned::record(&self.gpu, &mut frame, &voxels, joints, grid);
         }
@@ -97,8 +96,4 @@ impl Engine {
     pub(super) fn counts_buffer(&mut self) -> Result<GpuBuffer, GpuError> {
         self.comparison_counts.ensure(&self.gpu, "comparison counts", 4 * compare_sets::COUNT_WORDS)
     }
-}
-
-pub(super) fn missing(label: &str) -> GpuError {
-    GpuError::Missing { label: label.to_owned() }
 }

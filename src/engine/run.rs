@@ -4,9 +4,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::record::missing;
 use super::steps::{Step, Which};
-use super::{Engine, EngineError, EngineState, Wanted, other_filter};
+use super::{Engine, EngineError, EngineState, Wanted, missing, other_filter};
 use crate::gpu::{GpuBuffer, Job, JobState, KernelTiming, PendingRead};
 use crate::plan::FramePlan;
 use crate::settings::View;
@@ -14,8 +13,8 @@ use crate::stages::compare::compare_sets;
 
 /// A frame on its way.
 pub struct Running {
-    pub(super) wanted: Wanted,
-    pub(super) plan: FramePlan,
+    wanted: Wanted,
+    plan: FramePlan,
     steps: VecDeque<Step>,
     total: usize,
     work: Option<Work>,
@@ -119,7 +118,7 @@ impl Engine {
             }
             // Uploaded slice by slice before it gets here.
             Step::UploadMesh => Ok(None),
-            Step::Move => job(self.record_move(running)?),
+            Step::Move => job(self.record_move(&running.wanted, &running.plan)?),
             Step::Masks(which) => job(self.record_masks(which, &running.wanted)?),
             Step::Nodes(which) => {
                 let voxels = self.voxels()?;

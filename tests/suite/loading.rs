@@ -263,7 +263,7 @@ fn what_would_take_too_much_is_refused_before_it_does() {
 
     let mut document = Document::with_triangle();
     document.json["materials"] = json!([[]]);
-    assert_eq!(document.refusal(), "test.gltf: material 0: cannot be read: invalid type: list, expected an object");
+    assert_eq!(document.refusal(), "test.gltf: material 0: cannot be read: invalid type, expected an object");
 
     let mut document = Document::with_triangle();
     let ones = document.view(&1.0_f32.to_le_bytes().repeat(3 << 16));

@@ -4,7 +4,7 @@ use draco_gltf::{MeshoptFilter, MeshoptMode, meshopt};
 use gltf::json::buffer::View;
 use serde::Deserialize;
 
-use super::source::Source;
+use super::budget::Budget;
 
 const EXTENSIONS: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
 
@@ -32,14 +32,19 @@ impl Compressed {
         Some(Self(Declared::deserialize(declared).map_err(|error| error.to_string())))
     }
 
-    pub fn decode(&self, source: &Source) -> Result<Vec<u8>, String> {
+    /// `bytes_of` gives the bytes of a buffer from a start, so many.
+    pub fn decode<'a>(
+        &self,
+        bytes_of: impl Fn(usize, u64, u64) -> Result<&'a [u8], String>,
+        budget: &Budget,
+    ) -> Result<Vec<u8>, String> {
         let declared = self.0.as_ref().map_err(Clone::clone)?;
         let mode = MeshoptMode::from_name(&declared.mode).map_err(|error| error.to_string())?;
         let filter = declared.filter.as_deref().unwrap_or("NONE");
         let filter = MeshoptFilter::from_name(filter).map_err(|error| error.to_string())?;
-        let packed = source.buffer_bytes(declared.buffer, declared.byte_offset, declared.byte_length)?;
+        let packed = bytes_of(declared.buffer, declared.byte_offset, declared.byte_length)?;
         let (count, stride) = (declared.count, declared.byte_stride);
-        source.budget.spend_on(count, stride)?;
+        budget.spend_on(count, stride)?;
         let mut bytes = vec![0; count * stride];
         meshopt::decode_buffer_view(&mut bytes, packed, mode, filter, count, stride)
             .map_err(|error| error.to_string())?;

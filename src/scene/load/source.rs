@@ -89,7 +89,8 @@ impl<'a> Source<'a> {
             .collect();
         progress.add_total(compressed.len() as u64);
         let decoded = compressed.par_iter().map(|(index, compressed)| {
-            let bytes = compressed.decode(self);
+            let bytes =
+                compressed.decode(|buffer, start, length| self.buffer_bytes(buffer, start, length), self.budget);
             progress.advance(1)?;
             Ok((*index, bytes))
         });
@@ -108,7 +109,7 @@ impl<'a> Source<'a> {
     }
 
     /// Bytes of a buffer, from `start`; errors are causes.
-    pub fn buffer_bytes(&self, buffer: usize, start: u64, length: u64) -> Result<&[u8], String> {
+    fn buffer_bytes(&self, buffer: usize, start: u64, length: u64) -> Result<&[u8], String> {
         let bytes = self.buffers.get(buffer).ok_or_else(|| format!("buffer {buffer} does not exist"))?;
         let bytes = bytes.as_ref().map_err(|cause| format!("needs data that is not there: {cause}"))?;
         let range = usize::try_from(start).ok().zip(start.checked_add(length).and_then(|end| end.try_into().ok()));

@@ -20,7 +20,7 @@ use serde_json::Value;
 
 use super::error::Defect;
 
-const NOT_AN_OBJECT: &str = "cannot be read: invalid type: list, expected an object";
+const NOT_AN_OBJECT: &str = "cannot be read: invalid type, expected an object";
 
 /// Parses, repairs and types the document; what was repaired or is not as glTF has it is warned of.
 pub(super) fn read(text: &[u8], warnings: &mut Vec<String>) -> Result<Root, Defect> {
