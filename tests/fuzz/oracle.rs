@@ -66,9 +66,12 @@ fn show(scene: Scene) {
             scene.bounds_at(&pose);
         }
     }
-    let discretization = Discretization { grid: 64, ..Discretization::default() };
-    if let Err(error) = prepare(Arc::new(scene), &discretization, None, &Progress::default()) {
-        assert!(!error.to_string().is_empty());
+    let scene = Arc::new(scene);
+    for span in [None, Some(0.25)] {
+        let discretization = Discretization { grid: 64, span, ..Discretization::default() };
+        if let Err(error) = prepare(Arc::clone(&scene), &discretization, None, &Progress::default()) {
+            assert!(!error.to_string().is_empty());
+        }
     }
 }
 
