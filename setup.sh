@@ -22,7 +22,7 @@ install_debian() {
     add_backports
     as_root apt-get -qq update
     as_root apt-get -qq install -y --no-install-recommends ca-certificates curl git gcc libc6-dev \
-        libvulkan1 xvfb xauth xdotool imagemagick x11-apps \
+        libvulkan1 xvfb xauth xdotool imagemagick fonts-dejavu-core jq x11-apps \
         libx11-6 libx11-xcb1 libxcursor1 libxi6 libxrandr2 libxkbcommon0 libxkbcommon-x11-0 xkb-data
     as_root apt-get -qq install -y --no-install-recommends -t bookworm-backports mesa-vulkan-drivers
 }

@@ -14,7 +14,6 @@ mod accessor;
 mod accessor_check;
 mod animation;
 mod attributes;
-
 mod budget;
 mod cameras;
 mod container;
