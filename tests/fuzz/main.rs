@@ -3,7 +3,7 @@
 //! Whatever the input, opening it ends soon with a scene or a sentence, without a panic and within
 //! the memory that was allowed; an opened scene can be posed and voxelized. `cargo test` tries a
 //! few thousand inputs; `OCTOLUME_FUZZ_SECONDS=1800 cargo test --test fuzz` tries for that long.
-//! A finding is written to the target folder, and stays as a case of `amplifiers` or `findings`.
+//! A finding is written to the target folder, and stays as a case of `amplifiers`.
 
 mod amplifiers;
 #[allow(dead_code, reason = "the other tests use the rest")]

@@ -25,6 +25,9 @@ const MEMORY_BUDGET_BYTES: u64 = 16 << 20;
 /// the file's form to the scene's.
 const MEMORY_SLACK_BYTES: u64 = 32 << 20;
 
+/// More than a person reads.
+const MOST_WARNINGS: usize = 256;
+
 /// The right to allocate much: memory is counted for the whole process.
 pub struct Turn(#[expect(dead_code, reason = "held until it is dropped")] MutexGuard<'static, ()>);
 
@@ -47,6 +50,7 @@ pub fn check(_: &Turn, file: &[u8]) {
     match opened {
         Ok(scene) => {
             assert_eq!(scene.warnings.iter().find(|warning| warning.contains('\n')), None, "a sentence is one line");
+            assert!(scene.warnings.len() <= MOST_WARNINGS, "{} warnings", scene.warnings.len());
             show(scene);
         }
         Err(error) => {
