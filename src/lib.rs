@@ -12,6 +12,7 @@
 pub mod accuracy;
 #[cfg(feature = "gui")]
 pub mod app;
+pub mod color;
 pub mod data;
 pub mod disk_cache;
 pub mod engine;

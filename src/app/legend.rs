@@ -3,9 +3,10 @@
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
 
 use super::theme;
+use crate::color::srgb_byte;
 use crate::settings::{ColorBy, Look, View};
 use crate::stages::view::GHOST_COLORS;
-use crate::stages::view::palette::{gamma_from_linear, legend_value};
+use crate::stages::view::palette::legend_value;
 
 const SIZE: egui::Vec2 = vec2(150.0, 10.0);
 
@@ -71,7 +72,7 @@ fn ramp(painter: &Painter, corner: Pos2, map: ColorBy, name: &str, ends: [&str; 
 
 /// A linear colour of a shader as the picture shows it.
 fn shown(linear: [f32; 4]) -> Color32 {
-    let [r, g, b] = [0, 1, 2].map(|channel| (gamma_from_linear(f64::from(linear[channel])) * 255.0).round() as u8);
+    let [r, g, b] = [0, 1, 2].map(|channel| srgb_byte(linear[channel]));
     Color32::from_rgb(r, g, b)
 }
 

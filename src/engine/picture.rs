@@ -3,7 +3,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Engine, EngineError, Wanted};
+use super::{Engine, EngineError, Wanted, missing};
+use crate::color::srgb_byte;
 use crate::data::octree::{OctreeParams, Slot};
 use crate::gpu::{GpuError, GpuTexture, Recorder};
 use crate::scene::OrbitCamera;
@@ -16,7 +17,6 @@ use crate::stages::view::ghost::{self, LeafSet};
 use crate::stages::view::march::{self, MarchedOctree};
 use crate::stages::view::mesh::{self, MeshTarget, MeshView};
 use crate::stages::view::mesh_scene::MeshScene;
-use crate::stages::view::palette::gamma_from_linear;
 use crate::stages::view::picture::depth_buffer;
 use crate::stages::view::{BACKGROUND, GHOST_COLORS, Palette, Picture, ViewParams, shown_color};
 
@@ -78,8 +78,7 @@ impl Engine {
         let camera = self.camera(wanted)?;
         let pose = prepared.pose(&wanted.settings.motion)?;
         let depth = self.mesh_depth(wanted.size_px)?;
-        let missing = || GpuError::Missing { label: "mesh vertices".to_owned() };
-        let mesh = self.mesh.as_mut().ok_or_else(missing)?;
+        let mesh = self.mesh.as_mut().ok_or_else(|| missing("mesh vertices"))?;
         let seen =
             MeshView { camera: &camera, grid: &prepared.grid, look: &wanted.settings.look, hidden: &wanted.hidden };
         Ok(mesh::record(&self.gpu, frame, mesh, &pose, seen, MeshTarget { picture, depth: &depth })?)
@@ -149,12 +148,11 @@ impl Engine {
             let [width, height] = wanted.size_px;
             return Ok(image::RgbaImage::from_pixel(width, height, background_pixel()));
         }
-        let missing = || GpuError::Missing { label: "picture".to_owned() };
-        Ok(self.picture.as_ref().ok_or_else(missing)?.read(&self.gpu)?)
+        Ok(self.picture.as_ref().ok_or_else(|| missing("picture"))?.read(&self.gpu)?)
     }
 }
 
 fn background_pixel() -> image::Rgba<u8> {
-    let [r, g, b] = BACKGROUND.map(|channel| (gamma_from_linear(f64::from(channel)) * 255.0).round() as u8);
+    let [r, g, b] = BACKGROUND.map(srgb_byte);
     image::Rgba([r, g, b, u8::MAX])
 }

@@ -10,6 +10,7 @@ use ply_rs_bw::ply::{Addable, ElementDef, Encoding, Ply, PropertyAccess, Propert
 use ply_rs_bw::writer::Writer;
 
 use super::{ExportError, write_file};
+use crate::color::srgb_byte;
 use crate::data::grid::Grid;
 use crate::engine::WorldVoxels;
 
@@ -111,12 +112,6 @@ impl PropertyAccess for Point {
     fn get_int(&self, name: &str) -> Option<i32> {
         component(CELL, name, self.cell)
     }
-}
-
-/// IEC 61966-2-1.
-fn srgb_byte(linear: f32) -> u8 {
-    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-    (encoded * 255.0).round() as u8
 }
 
 #[cfg(test)]

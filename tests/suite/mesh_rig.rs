@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use glam::{DMat4, DVec3, IVec3, Vec2, Vec3};
+use octolume::color::gamma_from_linear;
 use octolume::data::grid::Grid;
 use octolume::gpu::{Gpu, Job, Recorder};
 use octolume::scene::{LocalTransform, Material, Mesh, Node, OrbitCamera, Primitive, Scene, Skin, Trs};
@@ -11,7 +12,6 @@ use octolume::settings::{Hidden, Look};
 use octolume::stages::view::camera::PixelRays;
 use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
 use octolume::stages::view::mesh_scene::MeshScene;
-use octolume::stages::view::palette::gamma_from_linear;
 use octolume::stages::view::{BACKGROUND, Picture, picture};
 
 pub const SIZE_PX: [u32; 2] = [64, 48];

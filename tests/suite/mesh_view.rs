@@ -87,7 +87,7 @@ fn textures_factors_and_vertex_colours_multiply() {
     let mut scene = Scene { textures: vec![texture], ..one_square(material) };
     scene.meshes[0].primitives[0].colors = vec![Vec4::new(1.0, 0.5, 1.0, 1.0); 4];
     let seen = drawn(gpu(), scene, &look());
-    let half = octolume::stages::view::palette::linear_from_gamma(188.0 / 255.0);
+    let half = octolume::color::linear_from_gamma(188.0 / 255.0);
     for (index, point) in pixels() {
         let (place, _) = meets(point, 0.0);
         if place.abs().max_element() > 0.9 || place.x.abs() < 0.15 {
@@ -109,7 +109,7 @@ fn unlit_materials_are_not_shaded_and_transformed_textures_are_read_elsewhere() 
     let material = Material { base_color_texture: Some(slot), unlit: true, ..Material::default() };
     let scene = Scene { textures: vec![texture], ..one_square(material) };
     let seen = drawn(gpu(), scene, &Look { shaded: true, ..look() });
-    let half = octolume::stages::view::palette::linear_from_gamma(188.0 / 255.0);
+    let half = octolume::color::linear_from_gamma(188.0 / 255.0);
     for (index, point) in pixels() {
         let (place, _) = meets(point, 0.0);
         if place.abs().max_element() < 0.9 && place.x.abs() > 0.15 {

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::DVec3;
+use octolume::color::gamma_from_linear;
 use octolume::data::grid::morton_cell;
 use octolume::data::octree::FULL_WEIGHT;
 use octolume::data::packing::pack_normal;
@@ -13,7 +14,6 @@ use octolume::stages::view::camera::{PixelRay, PixelRays};
 use octolume::stages::view::ghost::{self, LeafSet};
 use octolume::stages::view::march::MarchedOctree;
 use octolume::stages::view::march_ref::{self, crossings};
-use octolume::stages::view::palette::gamma_from_linear;
 use octolume::stages::view::{BACKGROUND, GHOST_COLORS, LEAST_LIGHT, NO_DEPTH, Picture, ViewParams, ghost_ref};
 
 use crate::device::{gpu, open};

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 
 use glam::{DVec3, IVec3};
+use octolume::color::linear_from_gamma;
 use octolume::data::grid::{Grid, morton_cell};
 use octolume::data::octree::FULL_WEIGHT;
 use octolume::data::packing::pack_normal;
@@ -13,7 +14,7 @@ use octolume::settings::{AlphaRule, ColorBy, Look};
 use octolume::stages::view::camera::{PixelRay, PixelRays};
 use octolume::stages::view::march::{self, MarchedOctree};
 use octolume::stages::view::march_ref::{self, Rules, Shown};
-use octolume::stages::view::palette::{legend_object, legend_value, linear_from_gamma};
+use octolume::stages::view::palette::{legend_object, legend_value};
 use octolume::stages::view::{
     BACKGROUND, LEAST_LIGHT, NO_DEPTH, Palette, Picture, ViewParams, shown_color, shown_level,
 };

@@ -12,6 +12,7 @@ use gltf::json::extensions::material::PbrSpecularGlossiness;
 use image::{Rgba, RgbaImage};
 
 use super::{source::Source, texture::Textures};
+use crate::color::linear_from_gamma;
 use crate::scene::{Material, Texture};
 
 /// s₀: reflectance of a dielectric at normal incidence.
@@ -32,10 +33,10 @@ pub(super) fn convert(
     material.base_color_texture = textures.slot(object, declared.diffuse_texture.as_ref(), warnings);
     let packed = textures.slot(object, declared.specular_glossiness_texture.as_ref(), warnings);
     let Some(slot) = packed else {
-        let (color, metallic) = split([red, green, blue], specular);
+        let ([r, g, b], metallic) = split([red, green, blue], specular);
         // The diffuse texture multiplies the base colour only where nothing of it is metal.
         material.base_color =
-            if material.base_color_texture.is_some() { declared.diffuse_factor.0 } else { with(color, alpha) };
+            if material.base_color_texture.is_some() { declared.diffuse_factor.0 } else { [r, g, b, alpha] };
         material.metallic = metallic;
         material.roughness = 1.0 - gloss;
         material.metallic_roughness_texture = None;
@@ -88,16 +89,11 @@ fn brightness([r, g, b]: [f32; 3]) -> f32 {
 }
 
 fn linear(byte: u8) -> f32 {
-    let value = f32::from(byte) / 255.0;
-    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    linear_from_gamma(f64::from(byte) / 255.0) as f32
 }
 
 fn byte(value: f32) -> u8 {
     (value.clamp(0.0, 1.0) * 255.0).round() as u8
-}
-
-fn with([r, g, b]: [f32; 3], alpha: f32) -> [f32; 4] {
-    [r, g, b, alpha]
 }
 
 #[cfg(test)]

@@ -6,8 +6,8 @@
 use glam::{DVec3, IVec3};
 
 use super::camera::PixelRay;
-use super::palette::gamma_from_linear;
 use super::{AMBIENT, EDGE_FROM_PX, EDGE_FULL_PX, EDGE_SHADE, SHORT_NORMAL};
+use crate::color::gamma_from_linear;
 use crate::settings::AlphaRule;
 
 /// A cell and the part of the ray inside it.

@@ -11,7 +11,8 @@ use glam::{DMat3, DMat4, DVec3};
 use super::camera::PixelRays;
 use super::mesh_scene::{Batch, MeshScene, Place, material};
 use super::picture::{COLOR_FORMAT, DISTANCE_FORMAT};
-use super::{BACKGROUND, NO_DEPTH, Palette, Picture, ViewParams, palette};
+use super::{BACKGROUND, NO_DEPTH, Palette, Picture, ViewParams};
+use crate::color::gamma_from_linear;
 use crate::data::grid::Grid;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, GpuTexture, RasterTarget, Recorder, Uniform};
 use crate::scene::{AlphaMode, Material, Motion, Object, OrbitCamera, Pose, Primitive};
@@ -226,7 +227,7 @@ fn mesh_params(seen: MeshView<'_>, size_px: [u32; 2]) -> MeshParams {
 }
 
 fn attachments(target: MeshTarget<'_>) -> RasterTarget {
-    let [r, g, b] = BACKGROUND.map(|channel| palette::gamma_from_linear(f64::from(channel)));
+    let [r, g, b] = BACKGROUND.map(|channel| gamma_from_linear(f64::from(channel)));
     let background = wgpu::Color { r, g, b, a: 1.0 };
     let nothing = wgpu::Color { r: f64::from(NO_DEPTH), g: 0.0, b: 0.0, a: 1.0 };
     RasterTarget {

@@ -3,6 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use colorous::{Color, Gradient};
 
+use crate::color::linear_from_gamma;
 use crate::settings::ColorBy;
 
 const ENTRIES: usize = 256;
@@ -66,19 +67,10 @@ pub struct GhostColors {
 pub const GHOST_COLORS: GhostColors =
     GhostColors { both: [0.4, 0.4, 0.4, 0.3], holes: [0.85, 0.03, 0.02, 0.95], spill: [0.03, 0.12, 0.9, 0.12] };
 
-pub fn linear_from_gamma(value: f64) -> f64 {
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-}
-
-/// Clamps to 0 … 1.
-pub fn gamma_from_linear(value: f64) -> f64 {
-    let value = value.clamp(0.0, 1.0);
-    if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::srgb_byte;
 
     #[test]
     fn legend_and_shader_share_every_colour() {
@@ -86,7 +78,7 @@ mod tests {
             let palette = Palette::new(color);
             for (entry, painted) in palette.colors.iter().enumerate() {
                 let bytes = legend_entry(color, entry);
-                let shown = [0, 1, 2].map(|c| (gamma_from_linear(f64::from(painted[c])) * 255.0).round() as u8);
+                let shown = [0, 1, 2].map(|c| srgb_byte(painted[c]));
                 assert_eq!(shown, bytes, "{color:?} {entry}");
             }
         }

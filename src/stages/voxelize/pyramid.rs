@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 
 use glam::DVec2;
 
+use crate::color::linear_from_gamma;
 use crate::scene::{Texture, TextureRef, Wrap};
 
 /// How a slot reads an image's bytes.
@@ -132,12 +133,7 @@ fn neighbours(mode: Wrap, place: f64, size: usize) -> (usize, usize, f64) {
 
 fn srgb_to_linear(byte: u8) -> f64 {
     static TABLE: OnceLock<[f64; 256]> = OnceLock::new();
-    TABLE.get_or_init(|| {
-        std::array::from_fn(|i| {
-            let value = i as f64 / 255.0;
-            if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-        })
-    })[usize::from(byte)]
+    TABLE.get_or_init(|| std::array::from_fn(|i| linear_from_gamma(i as f64 / 255.0)))[usize::from(byte)]
 }
 
 fn base_texel(texture: &Texture, texels: Texels, x: usize, y: usize) -> [f64; 4] {
