@@ -22,6 +22,14 @@ pub(super) struct Elements<'a> {
     pub lanes: usize,
 }
 
+/// What an element takes; `None` where its type is none that glTF knows.
+pub(super) fn element_bytes(accessor: &Accessor) -> Option<usize> {
+    match (&accessor.component_type, &accessor.type_) {
+        (Checked::Valid(component), Checked::Valid(shape)) => Some(component.0.size() * shape.multiplicity()),
+        _ => None,
+    }
+}
+
 impl Source<'_> {
     /// Errors are causes; the caller knows what the accessor is for.
     pub fn elements(&self, index: Index<Accessor>) -> Result<Elements<'_>, String> {
@@ -70,7 +78,7 @@ impl Source<'_> {
         if stride < size {
             return Err(format!("has a stride of {stride} bytes for elements of {size}"));
         }
-        let bytes = self.view_bytes(view).map_err(|cause| format!("lies in buffer view {view}, which {cause}"))?;
+        let bytes = self.view_bytes(view)?;
         let end = match count {
             0 => Some(offset),
             _ => (count - 1).checked_mul(stride).and_then(|last| last.checked_add(offset)?.checked_add(size)),

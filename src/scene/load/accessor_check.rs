@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use super::{
+    accessor::element_bytes,
     error::{Defect, label},
     json::Few,
     source::Source,
@@ -17,7 +18,7 @@ pub(super) fn check(source: &Source, progress: &Progress, warnings: &mut Vec<Str
     let accessors = &source.root.accessors;
     progress.add_total(accessors.len() as u64);
     let mut allowance = source.check_allowance_bytes();
-    let checked: Vec<bool> = accessors.iter().map(|accessor| take(&mut allowance, element_bytes(accessor))).collect();
+    let checked: Vec<bool> = accessors.iter().map(|accessor| take(&mut allowance, declared_bytes(accessor))).collect();
     if checked.contains(&false) {
         warnings.push("accessors: they overlap so often that not all of their values were checked".to_owned());
     }
@@ -45,11 +46,8 @@ pub(super) fn take(allowance: &mut u64, bytes: u64) -> bool {
 }
 
 /// What all its elements take, whether they are there or not.
-pub(super) fn element_bytes(accessor: &Accessor) -> u64 {
-    let (Checked::Valid(component), Checked::Valid(shape)) = (&accessor.component_type, &accessor.type_) else {
-        return 0;
-    };
-    accessor.count.0.saturating_mul((component.0.size() * shape.multiplicity()) as u64)
+pub(super) fn declared_bytes(accessor: &Accessor) -> u64 {
+    accessor.count.0.saturating_mul(element_bytes(accessor).unwrap_or(0) as u64)
 }
 
 fn defects(source: &Source, accessor: &Accessor, with_values: bool) -> Vec<String> {

@@ -104,12 +104,11 @@ fn read_channel(
         Checked::Invalid => return Err("has an unknown interpolation".to_owned()),
     };
     let input = source.elements(sampler.input)?;
+    let output = source.elements(sampler.output)?;
     // Every channel has its own copy, however many share one sampler.
-    let numbers = source.elements(sampler.output)?.number_count().saturating_add(input.count);
-    source.budget.spend_on(numbers, size_of::<f64>())?;
+    source.budget.spend_on(output.number_count().saturating_add(input.count), size_of::<f64>())?;
     let times: Vec<[f32; 1]> = input.floats(0..input.count)?;
     let times_secs: Vec<f64> = times.into_iter().map(|[time]| f64::from(time)).collect();
-    let output = source.elements(sampler.output)?;
     let values: Vec<f64> = match property {
         Property::Rotation => output.floats::<4>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
         _ => output.floats::<3>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),

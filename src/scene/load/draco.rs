@@ -11,7 +11,7 @@ use gltf::json::{
 };
 
 use super::{
-    accessor::Elements,
+    accessor::{Elements, element_bytes},
     error::{About, Defect},
     source::Source,
 };
@@ -53,13 +53,13 @@ fn decode(source: &Source, primitive: &Primitive, declared: &serde_json::Value) 
     let declared = JsonValue::parse(declared.to_string().as_bytes()).map_err(|error| error.to_string())?;
     let extension = DracoPrimitiveExtension::from_json(&declared).map_err(|error| error.to_string())?;
     let view = Index::new(u32::try_from(extension.buffer_view()).unwrap_or(u32::MAX));
-    let payload = source.view_bytes(view).map_err(|cause| format!("lies in buffer view {view}, which {cause}"))?;
+    let payload = source.view_bytes(view)?;
     let mut contract = DracoPrimitiveContract::new();
     let accessor = |index: gltf::json::Index<gltf::json::Accessor>| &source.root.accessors[index.value()];
     for (semantic, &index) in &primitive.attributes {
         let Checked::Valid(semantic) = semantic else { continue };
         let (count, normalized) = (accessor(index).count.0, accessor(index).normalized);
-        let bytes = size_of(accessor(index));
+        let bytes = element_bytes(accessor(index)).unwrap_or(0);
         source.budget.spend_on(usize::try_from(count).unwrap_or(usize::MAX), bytes)?;
         contract = contract.with_attribute(semantic.to_string(), count, normalized);
     }
@@ -69,13 +69,6 @@ fn decode(source: &Source, primitive: &Primitive, declared: &serde_json::Value) 
         contract = contract.with_indices(count);
     }
     extension.decode(payload, &contract).map_err(|error| error.to_string())
-}
-
-fn size_of(accessor: &gltf::json::Accessor) -> usize {
-    match (&accessor.component_type, &accessor.type_) {
-        (Checked::Valid(component), Checked::Valid(shape)) => component.0.size() * shape.multiplicity(),
-        _ => 0,
-    }
 }
 
 fn component_of(component: Component) -> Result<ComponentType, String> {

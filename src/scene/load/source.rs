@@ -118,8 +118,13 @@ impl<'a> Source<'a> {
             .ok_or_else(|| format!("ends outside buffer {buffer} ({} bytes)", bytes.len()))
     }
 
-    /// All bytes of a buffer view, decompressed. Causes leave its number out.
+    /// All bytes of a buffer view, decompressed.
     pub fn view_bytes(&self, view: Index<View>) -> Result<&[u8], String> {
+        self.bytes_of_view(view).map_err(|cause| format!("lies in buffer view {view}, which {cause}"))
+    }
+
+    /// [`Self::view_bytes`], with causes that leave the view's number out.
+    pub fn bytes_of_view(&self, view: Index<View>) -> Result<&[u8], String> {
         if let Some(decoded) = self.decoded.get(&view.value()) {
             let cause = |cause: &String| format!("cannot be decompressed: {cause}");
             return decoded.as_ref().map(Vec::as_slice).map_err(cause);

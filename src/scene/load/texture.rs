@@ -74,8 +74,7 @@ impl Textures {
     /// How a material's slot reads its texture; `None` where it is empty or must do without.
     pub fn slot(&self, object: &str, info: Option<&Info>, warnings: &mut Vec<String>) -> Option<TextureRef> {
         let info = info?;
-        let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
-        self.place(object, info.index.value(), info.tex_coord, transform, warnings)
+        self.place(object, info.index.value(), info.tex_coord, transform(info), warnings)
     }
 
     /// [`Self::slot`] by its parts.
@@ -88,7 +87,7 @@ impl Textures {
         warnings: &mut Vec<String>,
     ) -> Option<TextureRef> {
         let texture = self.places.get(texture).copied().flatten()?;
-        let tex_coord = transform.and_then(|transform| transform.tex_coord).unwrap_or(tex_coord);
+        let tex_coord = overridden(tex_coord, transform);
         if tex_coord > 1 {
             warnings
                 .push(format!("{object}: a texture reads TEXCOORD_{tex_coord}, and 0 and 1 are read; it is left out"));
@@ -101,6 +100,20 @@ impl Textures {
         }
         Some(TextureRef { texture, tex_coord: tex_coord as usize, uv_from_tex_coord })
     }
+}
+
+fn transform(info: &Info) -> Option<&TextureTransform> {
+    info.extensions.as_ref()?.texture_transform.as_ref()
+}
+
+/// A transform may name another set of coordinates.
+fn overridden(tex_coord: u32, transform: Option<&TextureTransform>) -> u32 {
+    transform.and_then(|transform| transform.tex_coord).unwrap_or(tex_coord)
+}
+
+/// Which `TEXCOORD_n` a slot reads.
+pub(super) fn tex_coord_set(info: &Info) -> u32 {
+    overridden(info.tex_coord, transform(info))
 }
 
 /// KHR_texture_transform: scale, then a turn against the clock as seen with v downwards, then offset.
@@ -139,11 +152,7 @@ fn decode_images(source: &Source, progress: &Progress) -> Result<Vec<Result<Arc<
 fn decode(source: &Source, image: &Image) -> Result<RgbaImage, String> {
     match (&image.uri, image.buffer_view) {
         (Some(uri), _) => image_file::decode(&Target::of(uri, source.base_dir)?.read(source.budget)?, source.budget),
-        (None, Some(view)) => {
-            let bytes =
-                source.view_bytes(view).map_err(|cause| format!("lies in buffer view {view}, which {cause}"))?;
-            image_file::decode(bytes, source.budget)
-        }
+        (None, Some(view)) => image_file::decode(source.view_bytes(view)?, source.budget),
         (None, None) => Err("has no data".to_owned()),
     }
 }

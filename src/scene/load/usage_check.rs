@@ -11,10 +11,12 @@ use gltf::json::{
 };
 
 use super::{
-    accessor_check::{element_bytes, take},
+    accessor::element_bytes,
+    accessor_check::{declared_bytes, take},
     error::label,
     json::Few,
     source::Source,
+    texture::tex_coord_set,
 };
 
 const QUANTIZATION: &str = "KHR_mesh_quantization";
@@ -60,7 +62,7 @@ impl Check<'_> {
     /// Views lie in their buffers, and strides in their views.
     fn views(&mut self) {
         for (index, view) in self.source.root.buffer_views.iter().enumerate() {
-            if let Err(cause) = self.source.view_bytes(Index::new(index as u32)) {
+            if let Err(cause) = self.source.bytes_of_view(Index::new(index as u32)) {
                 self.few.add(|| format!("buffer view {index}: it {cause}"));
             }
             if let Some(stride) = view.byte_stride.filter(|stride| stride.0 as u64 > view.byte_length.0) {
@@ -128,10 +130,7 @@ impl Check<'_> {
         let accessor = self.accessor(index);
         let Some(view) = accessor.buffer_view else { return };
         let (offset, stride) = (accessor.byte_offset.unwrap_or_default().0, self.stride(accessor));
-        let size = match (&accessor.component_type, &accessor.type_) {
-            (Checked::Valid(component), Checked::Valid(shape)) => component.0.size() * shape.multiplicity(),
-            _ => return,
-        };
+        let Some(size) = element_bytes(accessor) else { return };
         if !offset.is_multiple_of(4) || !stride.unwrap_or(size).is_multiple_of(4) {
             self.few.add(|| format!("{object}: its vertices do not start at multiples of 4 bytes"));
         }
@@ -156,7 +155,7 @@ impl Check<'_> {
             ComponentType::U16 => u32::from(u16::MAX),
             _ => u32::MAX,
         };
-        let bytes = element_bytes(self.accessor(index));
+        let bytes = declared_bytes(self.accessor(index));
         if !self.indices.insert(index.value()) || !take(&mut self.allowance_bytes, bytes) {
             return;
         }
@@ -173,12 +172,9 @@ impl Check<'_> {
             return;
         };
         let pbr = &material.pbr_metallic_roughness;
-        let set = |info: &gltf::json::texture::Info| {
-            let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
-            transform.and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord)
-        };
         let slots = [&pbr.base_color_texture, &pbr.metallic_roughness_texture, &material.emissive_texture];
-        let sets = slots.into_iter().flatten().map(set).chain(material.normal_texture.as_ref().map(|n| n.tex_coord));
+        let sets =
+            slots.into_iter().flatten().map(tex_coord_set).chain(material.normal_texture.as_ref().map(|n| n.tex_coord));
         let missing =
             sets.filter(|&set| !primitive.attributes.contains_key(&Checked::Valid(Semantic::TexCoords(set)))).max();
         if let Some(set) = missing {

@@ -4,7 +4,7 @@
 use serde_json::Value;
 
 use super::few::Few;
-use super::tree::{object_at, visit};
+use super::tree::{object_at, visit, visit_all};
 
 /// Numbers and the values they may have.
 struct Range {
@@ -82,9 +82,7 @@ const EXCLUSIVE: [(&str, &str, &str); 5] = [
 ];
 
 pub fn check(tree: &Value, warnings: &mut Vec<String>) {
-    let mut empty = Few::default();
-    empties(tree, tree, &mut Vec::new(), &mut empty);
-    empty.append_to(warnings);
+    empties(tree, warnings);
     for Range { pattern, allowed, words } in &RANGES {
         let is_outside = |value: &Value| value.as_f64().is_some_and(|number| !allowed(number));
         warn(tree, pattern, is_outside, |value| format!("it is {value}, and must be {words}"), warnings);
@@ -134,27 +132,19 @@ fn warn(
 }
 
 /// No list of a document may be empty, and no primitive without attributes.
-fn empties(tree: &Value, value: &Value, path: &mut Vec<String>, few: &mut Few) {
-    let is_empty = match value {
-        Value::Array(items) => items.is_empty(),
-        Value::Object(members) => members.is_empty() && path.last().is_some_and(|last| last == "attributes"),
-        _ => false,
-    };
-    if is_empty {
-        few.add(|| format!("{}: it is empty, which glTF does not allow", object_at(tree, path)));
-    }
-    let mut enter = |key: String, child: &Value| {
-        path.push(key);
-        empties(tree, child, path, few);
-        path.pop();
-    };
-    match value {
-        Value::Array(items) => items.iter().enumerate().for_each(|(index, item)| enter(index.to_string(), item)),
-        Value::Object(members) => {
-            members.iter().filter(|(key, _)| *key != "extras").for_each(|(key, item)| enter(key.clone(), item));
+fn empties(tree: &Value, warnings: &mut Vec<String>) {
+    let mut few = Few::default();
+    visit_all(tree, &mut |path, value| {
+        let is_empty = match value {
+            Value::Array(items) => items.is_empty(),
+            Value::Object(members) => members.is_empty() && path.last().is_some_and(|last| last == "attributes"),
+            _ => false,
+        };
+        if is_empty {
+            few.add(|| format!("{}: it is empty, which glTF does not allow", object_at(tree, path)));
         }
-        _ => {}
-    }
+    });
+    few.append_to(warnings);
 }
 
 #[cfg(test)]

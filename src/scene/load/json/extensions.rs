@@ -108,10 +108,13 @@ pub fn check(tree: &Value, warnings: &mut Vec<String>) {
     }
     let mut carried: BTreeMap<&str, usize> = BTreeMap::new();
     let mut misplaced = Few::default();
-    look(tree, &mut Vec::new(), &mut |path, name| {
-        *carried.entry(name).or_default() += 1;
-        if known(name).is_some_and(|known| !known.carriers.iter().any(|&carrier| is(carrier, path))) {
-            misplaced.add(|| format!("{}: {name} does not belong there and is ignored", tree::object_at(tree, path)));
+    tree::visit_all(tree, &mut |path, value| {
+        for name in value.get("extensions").and_then(Value::as_object).into_iter().flat_map(|all| all.keys()) {
+            *carried.entry(name).or_default() += 1;
+            if known(name).is_some_and(|known| !known.carriers.iter().any(|&carrier| is(carrier, path))) {
+                misplaced
+                    .add(|| format!("{}: {name} does not belong there and is ignored", tree::object_at(tree, path)));
+            }
         }
     });
     misplaced.append_to(warnings);
@@ -125,29 +128,6 @@ pub fn check(tree: &Value, warnings: &mut Vec<String>) {
         if let Some(Known { support: Support::Noted(note), .. }) = known(name) {
             warnings.push(format!("{name}: {}, {note}", counted(count, "object", "objects")));
         }
-    }
-}
-
-/// Calls `act` with the path of every object that carries an extension, and the extension's name.
-fn look<'a>(value: &'a Value, path: &mut Vec<String>, act: &mut dyn FnMut(&[String], &'a str)) {
-    let mut enter = |key: String, child: &'a Value, act: &mut dyn FnMut(&[String], &'a str)| {
-        path.push(key);
-        look(child, path, act);
-        path.pop();
-    };
-    match value {
-        Value::Array(items) => {
-            items.iter().enumerate().for_each(|(index, item)| enter(index.to_string(), item, act));
-        }
-        Value::Object(members) => {
-            for (key, item) in members.iter().filter(|(key, _)| *key != "extras") {
-                enter(key.clone(), item, act);
-            }
-            for name in members.get("extensions").and_then(Value::as_object).into_iter().flat_map(|all| all.keys()) {
-                act(path, name);
-            }
-        }
-        _ => {}
     }
 }
 

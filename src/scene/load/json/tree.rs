@@ -80,6 +80,28 @@ fn look<'a>(value: &'a Value, steps: &[&str], path: &mut Vec<String>, act: &mut 
     }
 }
 
+/// Calls `act` with the path of everything in the tree, and with it, from the root on. What a program
+/// keeps in `extras` for itself is none of ours.
+pub fn visit_all<'a>(tree: &'a Value, act: &mut dyn FnMut(&[String], &'a Value)) {
+    descend(tree, &mut Vec::new(), act);
+}
+
+fn descend<'a>(value: &'a Value, path: &mut Vec<String>, act: &mut dyn FnMut(&[String], &'a Value)) {
+    act(path, value);
+    let mut enter = |key: String, child: &'a Value| {
+        path.push(key);
+        descend(child, path, act);
+        path.pop();
+    };
+    match value {
+        Value::Array(items) => items.iter().enumerate().for_each(|(index, item)| enter(index.to_string(), item)),
+        Value::Object(members) => {
+            members.iter().filter(|(key, _)| *key != "extras").for_each(|(key, item)| enter(key.clone(), item));
+        }
+        _ => {}
+    }
+}
+
 /// `nodes[3].children[0]` as steps.
 pub fn steps_of(path: &str) -> Vec<String> {
     path.split(['.', '[', ']']).filter(|step| !step.is_empty()).map(str::to_owned).collect()
