@@ -1,6 +1,5 @@
 //! `octolume info`: what is in a scene, and what its octree holds.
 
-use std::collections::HashSet;
 use std::path::PathBuf;
 
 use bytesize::ByteSize;
@@ -94,7 +93,7 @@ impl Facts {
             materials: scene.materials.len(),
             textures: scene.textures.len(),
             skins: scene.skins.len(),
-            joints: scene.skins.iter().flat_map(|skin| &skin.joints).collect::<HashSet<_>>().len(),
+            joints: scene.joint_count(),
             clips: scene
                 .clips
                 .iter()

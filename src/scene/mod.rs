@@ -17,6 +17,7 @@ pub mod pose;
 pub mod skin;
 mod stretch;
 
+use std::collections::HashSet;
 use std::path::PathBuf;
 
 use glam::{DMat4, DQuat, DVec3};
@@ -53,6 +54,13 @@ pub struct Scene {
     pub extensions: Vec<String>,
     /// What was repaired, left out or approximated, a sentence each.
     pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// Nodes that are joints of a skin, each once.
+    pub fn joint_count(&self) -> usize {
+        self.skins.iter().flat_map(|skin| &skin.joints).collect::<HashSet<_>>().len()
+    }
 }
 
 /// A place in the hierarchy. `parent` is always smaller than the node's own index.

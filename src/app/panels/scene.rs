@@ -91,7 +91,6 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
     };
     let triangles: usize =
         prepared.objects.iter().map(|object| scene.meshes[object.object.mesh].triangle_count()).sum();
-    let joints: usize = scene.skins.iter().map(|skin| skin.joints.len()).sum();
     let cached: u64 = prepared.caches.iter().map(|cache| cache.voxels.len() as u64).sum();
     let cache_bytes = cached * size_of::<CacheVoxel>() as u64;
     let size = prepared.bounds.map_or("nothing to see".to_owned(), |bounds| {
@@ -108,7 +107,7 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
         );
         fact(ui, "Objects", &objects, "Nodes with a mesh, by how they move.");
         fact(ui, "Triangles", &grouped(triangles as u64), "Of all objects; instances count each.");
-        let counts = [(scene.skins.len(), "skin"), (joints, "joint"), (scene.clips.len(), "clip")];
+        let counts = [(scene.skins.len(), "skin"), (scene.joint_count(), "joint"), (scene.clips.len(), "clip")];
         let motion =
             counts.map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" })).join(", ");
         fact(ui, "Motion", &motion, "Skeletons that move meshes, and animations of the file.");
