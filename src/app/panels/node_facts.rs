@@ -6,7 +6,7 @@ use super::tree::TreePanel;
 use super::{fact, grouped};
 use crate::app::{outline, theme};
 use crate::prepare::PreparedObject;
-use crate::scene::{LightKind, Motion, Projection, Property, Scene};
+use crate::scene::{LightKind, Motion, Projection, Scene};
 
 pub fn ui(ui: &mut Ui, panel: TreePanel<'_>, node: usize) {
     let scene = &panel.prepared.scene;
@@ -107,8 +107,12 @@ fn carried_ui(ui: &mut Ui, panel: TreePanel<'_>, node: usize) {
         fact(ui, "Light", &format!("{kind}, {} {unit}", light.intensity), "KHR_lights_punctual.");
     }
     let clips = scene.clips.iter().filter_map(|clip| {
-        let properties: Vec<&str> =
-            clip.channels.iter().filter(|channel| channel.node == node).map(|channel| word(channel.property)).collect();
+        let properties: Vec<&str> = clip
+            .channels
+            .iter()
+            .filter(|channel| channel.node == node)
+            .map(|channel| channel.property.name())
+            .collect();
         (!properties.is_empty()).then(|| format!("{}: {}", clip.name, properties.join(", ")))
     });
     let clips: Vec<String> = clips.collect();
@@ -124,14 +128,6 @@ fn below_ui(ui: &mut Ui, panel: TreePanel<'_>, node: usize) {
         fact(ui, "Below", &text, "Nodes below this one; objects are nodes with a mesh, this one included.");
         let text = format!("{} triangles, {} voxels", grouped(below.triangles), grouped(below.voxels));
         fact(ui, "Together", &text, "Of this node and all below it; instances count each.");
-    }
-}
-
-fn word(property: Property) -> &'static str {
-    match property {
-        Property::Translation => "translation",
-        Property::Rotation => "rotation",
-        Property::Scale => "scale",
     }
 }
 

@@ -84,26 +84,40 @@ pub fn ui(ui: &mut Ui, panel: TreePanel<'_>, state: &mut TreeState) -> Vec<Comma
     commands
 }
 
+/// What can be done with a node, by its buttons and its menu.
+pub struct Offer {
+    pub enabled: bool,
+    pub name: &'static str,
+    pub tip: &'static str,
+    pub command: Command,
+}
+
+pub fn offers(panel: TreePanel<'_>, node: Option<usize>, is_shown: bool) -> [Offer; 4] {
+    let has_objects = node.is_some_and(|node| panel.outline.contents[node].objects > 0);
+    let (toggle, tip) = if is_shown {
+        ("Hide", "Hides the node and everything below it: it costs nothing then (H).")
+    } else {
+        ("Show", "Shows the node again (H).")
+    };
+    let offer = |enabled, name, tip, command| Offer { enabled, name, tip, command };
+    [
+        offer(node.is_some(), toggle, tip, Command::ToggleShown),
+        offer(has_objects, "Isolate", "Shows the node and everything below it alone (Shift+H).", Command::Isolate),
+        offer(node.is_some(), "Frame", "Brings the node into view (F, or a double click).", Command::Frame),
+        offer(!panel.visibility.shows_all(), "Show all", "Shows every node again (Alt+H).", Command::ShowAll),
+    ]
+}
+
 fn buttons_ui(ui: &mut Ui, panel: TreePanel<'_>, shown: &[bool], selected: Option<usize>) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.add_space(3.0);
     ui.horizontal(|ui| {
         let is_shown = selected.is_none_or(|node| shown.get(node).copied().unwrap_or(true));
-        let has_objects = selected.is_some_and(|node| panel.outline.contents[node].objects > 0);
-        let mut button = |enabled: bool, name: &str, tip: &str, command: Command| {
+        for Offer { enabled, name, tip, command } in offers(panel, selected, is_shown) {
             if ui.add_enabled(enabled, egui::Button::new(name)).on_hover_text(tip).clicked() {
                 commands.push(command);
             }
-        };
-        let (name, tip) = if is_shown {
-            ("Hide", "Hides the node and everything below it: it costs nothing then (H).")
-        } else {
-            ("Show", "Shows the node again (H).")
-        };
-        button(selected.is_some(), name, tip, Command::ToggleShown);
-        button(has_objects, "Isolate", "Shows the node and everything below it alone (Shift+H).", Command::Isolate);
-        button(selected.is_some(), "Frame", "Brings the node into view (F, or a double click).", Command::Frame);
-        button(!panel.visibility.shows_all(), "Show all", "Shows every node again (Alt+H).", Command::ShowAll);
+        }
     });
     ui.separator();
     commands

@@ -3,7 +3,7 @@
 use egui::{Color32, Label, RichText, Ui};
 use egui_ltreeview::NodeConfig;
 
-use super::tree::TreePanel;
+use super::tree::{Offer, TreePanel, offers};
 use crate::app::commands::Command;
 use crate::app::{outline, theme};
 
@@ -88,13 +88,7 @@ impl NodeConfig<usize> for Row<'_> {
     }
 
     fn context_menu(&mut self, ui: &mut Ui) {
-        let has_objects = self.panel.outline.contents[self.node].objects > 0;
-        for (enabled, name, command) in [
-            (true, if self.is_shown { "Hide" } else { "Show" }, Command::ToggleShown),
-            (has_objects, "Isolate", Command::Isolate),
-            (true, "Frame", Command::Frame),
-            (!self.panel.visibility.shows_all(), "Show all", Command::ShowAll),
-        ] {
+        for Offer { enabled, name, command, .. } in offers(self.panel, Some(self.node), self.is_shown) {
             if ui.add_enabled(enabled, egui::Button::new(name)).clicked() {
                 self.commands.extend([Command::Select(Some(self.node)), command]);
                 ui.close();
