@@ -117,12 +117,17 @@ impl BuiltOctree {
     pub fn record_object_numbers(&mut self, gpu: &Gpu, voxels: &MovingVoxels) -> Result<Recorder, GpuError> {
         let mut frame = Recorder::default();
         let (leaf_bits, ..) = self.masks()?;
-        let out = self.emitted(gpu)?;
-        let fill = self.filling(gpu, voxels, &out)?;
+        let fill = self.filled(gpu, voxels)?;
         let objects = self.buffers.leaf_objects.ensure(gpu, "leaf objects", 4 * u64::from(self.params.leaf_count))?;
         let octree = (&self.params, self.filter);
         number_objects::record(gpu, &mut frame, voxels, octree, &fill, (&leaf_bits, &objects));
         Ok(frame)
+    }
+
+    /// The buffers of a finished filling.
+    pub fn filled(&mut self, gpu: &Gpu, voxels: &MovingVoxels) -> Result<Filling, GpuError> {
+        let out = self.emitted(gpu)?;
+        self.filling(gpu, voxels, &out)
     }
 
     fn masks(&self) -> Result<(GpuBuffer, GpuBuffer, GpuBuffer), GpuError> {

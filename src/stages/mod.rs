@@ -6,6 +6,8 @@ pub mod bench;
 pub mod build;
 pub mod compare;
 pub mod fill;
+pub mod light;
+pub mod mesh;
 pub mod transform;
 pub mod view;
 pub mod voxelize;
