@@ -7,7 +7,7 @@ use crate::data::voxel_cache::TILE_CELLS;
 use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
 use crate::stages::fill::number_objects::OBJECT_MASK;
-use crate::stages::view;
+use crate::stages::{sample, view};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
@@ -20,6 +20,8 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("COLOR_OCCUPANCY", view::COLOR_OCCUPANCY),
     ("COUNTER_CLIPPED", COUNTER_CLIPPED),
     ("COUNTER_OCCUPIED", COUNTER_OCCUPIED),
+    ("FILTER_QUADRILINEAR", sample::FILTER_QUADRILINEAR),
+    ("FILTER_TRILINEAR", sample::FILTER_TRILINEAR),
     ("FRACTION_BITS", FRACTION_BITS),
     ("FRACTION_ONE", 1 << FRACTION_BITS),
     ("FULL_WEIGHT", FULL_WEIGHT),

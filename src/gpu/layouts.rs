@@ -10,6 +10,7 @@ use crate::data::octree::{OctreeLevel, OctreeParams};
 use crate::data::pages::WorkItem;
 use crate::stages::build::LevelParams;
 use crate::stages::build::scan::ScanParams;
+use crate::stages::sample::sample_points::PointParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
 use crate::stages::view::mesh::{DrawParams, MeshParams};
 use crate::stages::view::mesh_scene::{MeshVertex, VertexJoints};
@@ -65,6 +66,7 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(LevelParams, "averaging/average.wgsl", "AverageParams", level),
     mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
     mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(PointParams, "sample/sample_points.wgsl", "PointParams", direction, pad),
     mirror!(
         ViewParams,
         "shared/view.wgsl",
