@@ -15,8 +15,6 @@
 //! leaves      3 words an *occupied* leaf: occupancy (2^24 = full), albedo rgb8, normal 10|10|10
 //! neighbours  3 words a block: rank of the block ahead along x, y, z; NO_BLOCK = none (section 4.4)
 //! node_neighbours  3 words a sparse node, leaves too: index of the node ahead, as in the paper
-//! light       4 f32 an inner node, then 4 an occupied leaf: mean radiance · opacity, opacity; under
-//!             directional opacity then 4 an inner node: opacity along x, y, z, unused
 //! ```
 //!
 //! Order is key order: the same in every run. Leaves (level `depth`) have no node payload, though
@@ -175,7 +173,6 @@ pub struct OctreeBuffers {
     pub leaf_objects: Slot,
     pub neighbours: Slot,
     pub node_neighbours: Slot,
-    pub light: Slot,
     pub places: Slot,
     pub sorted_voxels: Slot,
     pub heavy_blocks: Slot,

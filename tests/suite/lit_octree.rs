@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use octolume::data::octree::{OctreeBuffers, PointerLayout};
-use octolume::gpu::Gpu;
+use octolume::data::octree::{FULL_WEIGHT, OctreeBuffers, OctreeParams, PointerLayout, Slot};
+use octolume::gpu::{Gpu, GpuBuffer};
 use octolume::stages::build::link::{self, Linked};
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::sample::sample_points::{self, PointParams};
@@ -21,6 +21,7 @@ pub type LeafLight = (DVec3, f64);
 pub struct LitOctree {
     pub built: Built,
     pub buffers: OctreeBuffers,
+    pub light: GpuBuffer,
     pub neighbours: Vec<[u32; 3]>,
     pub node_neighbours: Vec<[u32; 3]>,
     /// What `light` holds, as stored: rounded to f32.
@@ -33,75 +34,11 @@ impl LitOctree {
         let words: Vec<_> = voxels.iter().map(world_voxel).collect();
         let mut buffers = OctreeBuffers::default();
         let built = World::given(gpu, &words).build_in(gpu, shape, &mut buffers);
-        let mut octree =
-            Self { built, buffers, neighbours: Vec::new(), node_neighbours: Vec::new(), nodes: LitNodes::default() };
-        octree.neighbours = octree.link(gpu, PointerLayout::Blocks);
-        octree.node_neighbours = octree.link(gpu, PointerLayout::Nodes);
-        octree.light(gpu, light);
-        octree
-    }
-
-    fn link(&mut self, gpu: &Gpu, layout: PointerLayout) -> Vec<[u32; 3]> {
-        let b = &mut self.buffers;
-        let made = |slot: &octolume::data::octree::Slot| slot.made("mask").expect("built");
-        let linked = Linked { blocks: made(&b.blocks), ranks: made(&b.ranks), block_keys: made(&b.block_keys) };
-        let slot = match layout {
-            PointerLayout::Blocks => &mut b.neighbours,
-            PointerLayout::Nodes => &mut b.node_neighbours,
-        };
-        let words = layout.words(&self.built.params);
-        let buffer = slot.ensure(gpu, "neighbours", 4 * words).expect("fits");
-        gpu.write(&buffer, 0, &vec![0x77; buffer.bytes() as usize]).expect("fits");
-        run(gpu, |frame| link::record(gpu, frame, &self.built.params, &linked, (layout, &buffer)));
-        read(gpu, &buffer, words / 3)
-    }
-
-    /// Fills `light`: premultiplied means up to the root, and opacity along the axes as a grid of
-    /// 2 x 2 paths through each node's children.
-    fn light(&mut self, gpu: &Gpu, light: impl Fn(Cell, f64) -> LeafLight) {
-        let params = self.built.params;
-        let (inner, leaves) = (params.inner_node_count as usize, params.leaf_count as usize);
-        let mut entries = vec![[0.0_f32; 4]; 2 * inner + leaves];
-        self.nodes.depth = params.depth;
-        let occupancy: BTreeMap<Cell, f64> =
-            rules::leaves(&self.built).expect("leaves").iter().map(|(c, l)| (*c, f64::from(l.occupancy))).collect();
-        for (cell, slot) in rules::leaf_slots(&self.built) {
-            let (radiance, opacity) = light(cell, occupancy[&cell] / f64::from(1_u32 << 24));
-            let stored = rounded(radiance * opacity, opacity);
-            entries[inner + slot] = stored;
-            self.nodes.nodes.insert((params.depth, cell.map(|c| c as i32)), lit(stored, Some([opacity as f32; 3])));
-        }
-        let index = rules::walk(&self.built).expect("walks");
-        for level in (0..params.depth).rev() {
-            for ((_, cell), node) in index.range((level, [0; 3])..(level + 1, [0; 3])) {
-                let node = *node as usize;
-                let (mean, across) = self.averaged(level, *cell);
-                entries[node] = rounded(mean.radiance, mean.opacity);
-                let axes = across.as_vec3().to_array();
-                entries[inner + leaves + node] = [axes[0], axes[1], axes[2], 0.0];
-                self.nodes.nodes.insert((level, cell.map(|c| c as i32)), lit(entries[node], Some(axes)));
-            }
-        }
-        let buffer = self.buffers.light.ensure(gpu, "light", 16 * entries.len() as u64).expect("fits");
-        gpu.write(&buffer, 0, bytemuck::cast_slice(&entries)).expect("fits");
-    }
-
-    /// Mean of a node's children, and its opacity along the axes.
-    fn averaged(&self, level: u32, cell: Cell) -> (LitNode, DVec3) {
-        let child = |i: u32| {
-            let at = [0, 1, 2].map(|axis| (2 * cell[axis] + (i >> axis & 1)) as i32);
-            self.nodes.nodes.get(&(level + 1, at)).copied().unwrap_or_default()
-        };
-        let children: Vec<LitNode> = (0..8).map(child).collect();
-        let radiance = children.iter().map(|c| c.radiance).sum::<DVec3>() / 8.0;
-        let opacity = children.iter().map(|c| c.opacity).sum::<f64>() / 8.0;
-        let across = |axis: usize| {
-            let pairs = (0..8).filter(|i| i >> axis & 1 == 0).map(|i| (i, i | 1 << axis));
-            let along = |i: usize| children[i].across.unwrap_or_default()[axis];
-            let opacities = pairs.map(|(near, far)| 1.0 - (1.0 - along(near)) * (1.0 - along(far)));
-            opacities.sum::<f64>() / 4.0
-        };
-        (LitNode { radiance, opacity, across: None }, DVec3::new(across(0), across(1), across(2)))
+        let neighbours = link(gpu, &built.params, &mut buffers, PointerLayout::Blocks);
+        let node_neighbours = link(gpu, &built.params, &mut buffers, PointerLayout::Nodes);
+        let (nodes, entries) = lit_nodes(&built, light);
+        let light = upload(gpu, "light", &entries);
+        Self { built, buffers, light, neighbours, node_neighbours, nodes }
     }
 
     /// The same without opacity along the axes, as the isotropic samplers see it.
@@ -111,7 +48,8 @@ impl LitOctree {
     }
 
     pub fn sampled(&self, look_up: LookUp) -> SampledOctree {
-        SampledOctree::new(&self.built.params, &self.buffers, look_up).unwrap_or_else(|error| panic!("{error}"))
+        SampledOctree::new(&self.built.params, &self.buffers, &self.light, look_up)
+            .unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Samples points of (position, level or width).
@@ -126,12 +64,71 @@ impl LitOctree {
     }
 }
 
+fn link(gpu: &Gpu, params: &OctreeParams, buffers: &mut OctreeBuffers, layout: PointerLayout) -> Vec<[u32; 3]> {
+    let made = |slot: &Slot| slot.made("mask").expect("built");
+    let (blocks, ranks, block_keys) = (made(&buffers.blocks), made(&buffers.ranks), made(&buffers.block_keys));
+    let slot = match layout {
+        PointerLayout::Blocks => &mut buffers.neighbours,
+        PointerLayout::Nodes => &mut buffers.node_neighbours,
+    };
+    let words = layout.words(params);
+    let buffer = slot.ensure(gpu, "neighbours", 4 * words).expect("fits");
+    gpu.write(&buffer, 0, &vec![0x77; buffer.bytes() as usize]).expect("fits");
+    let linked = Linked { blocks, ranks, block_keys };
+    run(gpu, |frame| link::record(gpu, frame, params, &linked, (layout, &buffer)));
+    read(gpu, &buffer, words / 3)
+}
+
+/// Premultiplied means up to the root, and opacity along the axes by the four paths through a node's
+/// children; the second is `light` with all of it.
+pub fn lit_nodes(built: &Built, light: impl Fn(Cell, f64) -> LeafLight) -> (LitNodes, Vec<[f32; 4]>) {
+    let params = built.params;
+    let (inner, leaves) = (params.inner_node_count as usize, params.leaf_count as usize);
+    let mut entries = vec![[0.0_f32; 4]; 2 * inner + leaves];
+    let mut lit = LitNodes { depth: params.depth, nodes: BTreeMap::new() };
+    let stored = rules::leaves(built).expect("leaves");
+    for (cell, slot) in rules::leaf_slots(built) {
+        let (radiance, opacity) = light(cell, f64::from(stored[&cell].occupancy) / f64::from(FULL_WEIGHT));
+        let entry = rounded(radiance * opacity, opacity);
+        entries[inner + slot] = entry;
+        lit.nodes.insert((params.depth, cell.map(|c| c as i32)), node(entry, [entry[3]; 3]));
+    }
+    let index = rules::walk(built).expect("walks");
+    for level in (0..params.depth).rev() {
+        for ((_, cell), number) in index.range((level, [0; 3])..(level + 1, [0; 3])) {
+            let number = *number as usize;
+            let (radiance, opacity, across) = averaged(&lit, level, *cell);
+            let axes = across.as_vec3().to_array();
+            entries[number] = rounded(radiance, opacity);
+            entries[inner + leaves + number] = [axes[0], axes[1], axes[2], 0.0];
+            lit.nodes.insert((level, cell.map(|c| c as i32)), node(entries[number], axes));
+        }
+    }
+    (lit, entries)
+}
+
+/// Mean of a node's children, and its opacity along the axes.
+fn averaged(lit: &LitNodes, level: u32, cell: Cell) -> (DVec3, f64, DVec3) {
+    let child = |i: u32| {
+        let at = [0, 1, 2].map(|axis| (2 * cell[axis] + (i >> axis & 1)) as i32);
+        lit.nodes.get(&(level + 1, at)).copied().unwrap_or_default()
+    };
+    let children: Vec<LitNode> = (0..8).map(child).collect();
+    let radiance = children.iter().map(|c| c.radiance).sum::<DVec3>() / 8.0;
+    let opacity = children.iter().map(|c| c.opacity).sum::<f64>() / 8.0;
+    let across = |axis: usize| {
+        let along = |i: usize| children[i].across.unwrap_or_default()[axis];
+        let near = (0..8).filter(|i| i >> axis & 1 == 0);
+        near.map(|i| 1.0 - (1.0 - along(i)) * (1.0 - along(i | 1 << axis))).sum::<f64>() / 4.0
+    };
+    (radiance, opacity, DVec3::new(across(0), across(1), across(2)))
+}
+
 fn rounded(radiance: DVec3, opacity: f64) -> [f32; 4] {
     radiance.as_vec3().extend(opacity as f32).to_array()
 }
 
-fn lit(stored: [f32; 4], across: Option<[f32; 3]>) -> LitNode {
-    let [r, g, b, opacity] = stored.map(f64::from);
-    let across = across.map(|axes| DVec3::from_array(axes.map(f64::from)));
-    LitNode { radiance: DVec3::new(r, g, b), opacity, across }
+fn node([r, g, b, opacity]: [f32; 4], axes: [f32; 3]) -> LitNode {
+    let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
+    LitNode { radiance: wide([r, g, b]), opacity: opacity.into(), across: Some(wide(axes)) }
 }

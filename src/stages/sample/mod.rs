@@ -1,8 +1,9 @@
 //! Asks the lit octree for radiance and opacity anywhere (section 4.4): nearest node, trilinear in a
 //! level, or quadrilinear at a width, the nodes found by rank look-up or by pointers as in the paper.
 //!
-//! In: an octree with its `light` buffer (data::octree). Out: (radiance · α, α), α being opacity per
-//! leaf cell of length. Both look-ups give the same bits.
+//! In: an octree and its `light`, 4 f32 an inner node, then 4 an occupied leaf: mean radiance · opacity,
+//! and opacity; under directional opacity 4 more an inner node: opacity across it along x, y and z.
+//! Out: (radiance · α, α), α being opacity per leaf cell of length. All look-ups give the same bits.
 
 pub mod sample_points;
 pub mod sample_points_ref;
@@ -104,8 +105,13 @@ pub struct SampledOctree {
 }
 
 impl SampledOctree {
-    /// The error names what was not made: the octree, its light, or the pointers of this look-up.
-    pub fn new(params: &OctreeParams, buffers: &OctreeBuffers, look_up: LookUp) -> Result<Self, GpuError> {
+    /// The error names what was not made: the octree, or the pointers of this look-up.
+    pub fn new(
+        params: &OctreeParams,
+        buffers: &OctreeBuffers,
+        light: &GpuBuffer,
+        look_up: LookUp,
+    ) -> Result<Self, GpuError> {
         let ranks = buffers.ranks.made("block ranks")?;
         let neighbours = match look_up.layout() {
             None => ranks.clone(),
@@ -120,7 +126,7 @@ impl SampledOctree {
             neighbours,
             leaf_bits: buffers.leaf_bits.made("leaf bits")?,
             block_starts: buffers.block_starts.made("block starts")?,
-            light: buffers.light.made("light")?,
+            light: light.clone(),
         })
     }
 
