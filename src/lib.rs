@@ -18,6 +18,7 @@ pub mod disk_cache;
 pub mod engine;
 pub mod export;
 pub mod gpu;
+pub mod lights;
 pub mod plan;
 pub mod prepare;
 pub mod progress;

@@ -1,17 +1,19 @@
 //! Everything a person can set. Window and command line fill the same struct, a screenshot carries
 //! it, and the engine compares it with what was built to decide what a frame must do.
 
+pub mod lighting;
+mod look;
 mod node_names;
 mod visibility;
 
 use serde::{Deserialize, Serialize};
 
+pub use lighting::Lighting;
+pub use look::{AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, View};
 pub use node_names::NodeNames;
 pub use visibility::{Hidden, Visibility, VisibilityError};
 
 use crate::data::voxel_cache::VoxelizationMode;
-use crate::scene::OrbitCamera;
-use crate::scene::camera::FOV_Y_DEGREES;
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -20,6 +22,7 @@ pub struct Settings {
     pub motion: MotionSettings,
     pub look: Look,
     pub visibility: Visibility,
+    pub lighting: Lighting,
 }
 
 impl Settings {
@@ -29,26 +32,9 @@ impl Settings {
     pub fn check(&self) -> Result<(), String> {
         self.discretization.check()?;
         self.motion.check()?;
-        let depth = self.discretization.depth();
-        if let Some(level) = self.look.level.filter(|level| *level > depth) {
-            return Err(format!("level {level} is not one of 0 (the root) to {depth} (the leaves)"));
-        }
-        self.look.camera.map_or(Ok(()), |camera| check_camera(&camera))
+        self.lighting.check()?;
+        self.look.check(self.discretization.depth())
     }
-}
-
-fn check_camera(camera: &OrbitCamera) -> Result<(), String> {
-    if !(camera.eye.is_finite() && camera.target.is_finite()) {
-        return Err("the camera's eye and target must be finite".to_owned());
-    }
-    if camera.eye == camera.target {
-        return Err("the camera's eye and target must differ".to_owned());
-    }
-    if !FOV_Y_DEGREES.contains(&camera.fov_y_degrees) {
-        let (least, most) = (FOV_Y_DEGREES.start(), FOV_Y_DEGREES.end());
-        return Err(format!("a field of view of {} degrees is not in {least} to {most}", camera.fov_y_degrees));
-    }
-    Ok(())
 }
 
 /// What the voxels are made of. A change of grid, span or mode voxelizes again.
@@ -163,70 +149,4 @@ impl Default for MotionSettings {
     fn default() -> Self {
         Self { clip: None, time_secs: 0.0, turn_degrees: [0.0; 3] }
     }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Look {
-    pub view: View,
-    pub color: ColorBy,
-    /// Octree level shown; `None`: the leaves.
-    pub level: Option<u32>,
-    pub alpha: AlphaRule,
-    pub voxel_edges: bool,
-    /// A headlight from the camera; off shows the bare colour.
-    pub shaded: bool,
-    /// `None`: frames everything.
-    pub camera: Option<OrbitCamera>,
-    /// Also measures the filter not shown, and both against the exact posed voxelization.
-    pub accuracy: bool,
-}
-
-impl Default for Look {
-    fn default() -> Self {
-        Self {
-            view: View::default(),
-            color: ColorBy::default(),
-            level: None,
-            alpha: AlphaRule::default(),
-            voxel_edges: false,
-            shaded: true,
-            camera: None,
-            accuracy: false,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum View {
-    /// The octree, ray-marched with occupancy as alpha (Fig. 8).
-    #[default]
-    Voxels,
-    /// The posed triangles.
-    Mesh,
-    /// Exact voxels of the posed mesh over the moved ones: holes red, spill blue.
-    Ghost,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ColorBy {
-    #[default]
-    Albedo,
-    Normal,
-    Occupancy,
-    Object,
-    Level,
-}
-
-/// How much of the light a visited voxel of occupancy α stops.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum AlphaRule {
-    /// α once a visited voxel, as in the paper's Fig. 8.
-    #[default]
-    Paper,
-    /// 1 − (1 − α)^(s/δ) for a path of length s inside it.
-    Length,
 }

@@ -97,8 +97,8 @@ impl Wanted {
     /// Nothing of the scene is in the picture: all of it is hidden, or outside the grid.
     fn shows_nothing(&self) -> bool {
         match self.settings.look.view {
-            View::Mesh => self.facts.triangles == 0,
-            View::Voxels | View::Ghost => self.facts.voxels() == 0,
+            View::Mesh | View::ShadowMap => self.facts.triangles == 0,
+            View::Voxels | View::Ghost | View::Slice => self.facts.voxels() == 0,
         }
     }
 }

@@ -69,6 +69,7 @@ impl Engine {
                 ghost::record(&self.gpu, &mut frame, &octree, (&moved, &exact), (&view, &GHOST_COLORS), &picture);
             }
             View::Mesh => self.record_mesh(&mut frame, wanted, &picture)?,
+            View::Slice | View::ShadowMap => {}
         }
         Ok(frame)
     }

@@ -21,6 +21,7 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 
 use glam::{DMat4, DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 pub use animation::{Channel, Clip, Interpolation, Property};
 pub use bounds::Aabb;
@@ -132,7 +133,8 @@ pub struct Light {
     pub intensity: f32,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum LightKind {
     Directional,
     Point { range: Option<f32> },

@@ -109,7 +109,8 @@ pub fn shown_color(look: &Look, depth: u32) -> ColorBy {
 
 fn color_number(color: ColorBy) -> u32 {
     match color {
-        ColorBy::Albedo => COLOR_ALBEDO,
+        // Light has a kernel of its own; triangles have none.
+        ColorBy::Albedo | ColorBy::Radiance | ColorBy::Irradiance => COLOR_ALBEDO,
         ColorBy::Normal => COLOR_NORMAL,
         ColorBy::Occupancy => COLOR_OCCUPANCY,
         ColorBy::Object => COLOR_OBJECT,

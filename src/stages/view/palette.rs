@@ -47,6 +47,7 @@ fn legend_entry(color: ColorBy, entry: usize) -> [u8; 3] {
     match color {
         ColorBy::Object => rgb(colorous::SINEBOW, (entry as f64 * HUE_STEP).fract()),
         ColorBy::Level => rgb(colorous::PLASMA, value),
+        ColorBy::Radiance | ColorBy::Irradiance => rgb(colorous::INFERNO, value),
         ColorBy::Albedo | ColorBy::Normal | ColorBy::Occupancy => rgb(colorous::VIRIDIS, value),
     }
 }

@@ -1,0 +1,216 @@
+//! What lights the scene, and how that light is computed. In the units of KHR_lights_punctual: lux for
+//! directional lights, candela for point and spot lights; radiance of the sky in nits.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::scene::LightKind;
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Lighting {
+    /// A sun of our own.
+    pub sun: Sun,
+    /// Lights of the scene that are not as in the file, by the node that carries them.
+    pub edits: BTreeMap<usize, LightEdit>,
+    /// Lights beside those of the scene.
+    pub added: Vec<AddedLight>,
+    /// Radiance that comes from every direction, linear RGB, nits.
+    pub sky_nits: [f64; 3],
+    /// Multiplies what emissive surfaces emit; 0: they emit nothing.
+    pub emission: f64,
+    pub shadows: Shadows,
+    /// Texels along an edge of a shadow map; half as many on the faces around a point light.
+    pub shadow_map_px: u32,
+    /// How far above its surface a leaf looks for what hides the light, in voxels.
+    pub shadow_offset_voxels: f64,
+    pub opacity: Opacity,
+    /// How often light goes on from leaf to leaf after it has met the first.
+    pub bounces: u32,
+    /// Cones a leaf sends out for sky and bounces.
+    pub cones: u32,
+    /// Full apex angle of those cones.
+    pub cone_degrees: f64,
+}
+
+impl Default for Lighting {
+    fn default() -> Self {
+        Self {
+            sun: Sun::default(),
+            edits: BTreeMap::new(),
+            added: Vec::new(),
+            sky_nits: [0.0; 3],
+            emission: 1.0,
+            shadows: Shadows::default(),
+            shadow_map_px: 2048,
+            shadow_offset_voxels: 1.5,
+            opacity: Opacity::default(),
+            bounces: 0,
+            cones: 8,
+            cone_degrees: 60.0,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Sun {
+    pub shines: SunShines,
+    /// The way its light goes, in the scene's axes; any length but 0.
+    pub direction: [f64; 3],
+    /// Linear RGB.
+    pub color: [f64; 3],
+    pub illuminance_lux: f64,
+}
+
+impl Default for Sun {
+    fn default() -> Self {
+        let color = [1.0, 0.96, 0.9];
+        Self { shines: SunShines::default(), direction: [-0.35, -1.0, -0.25], color, illuminance_lux: 10_000.0 }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SunShines {
+    /// Where the scene has no lights, and nothing in it emits.
+    #[default]
+    Unlit,
+    Always,
+    Never,
+}
+
+/// A light of the scene as it shall be. Place and direction stay those of its node.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LightEdit {
+    pub on: bool,
+    pub kind: LightKind,
+    /// Linear RGB.
+    pub color: [f64; 3],
+    /// Lux or candela.
+    pub intensity: f64,
+}
+
+/// A light that is not in the file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AddedLight {
+    pub name: String,
+    pub light: LightEdit,
+    /// Scene units.
+    pub position: [f64; 3],
+    /// The way it shines; any length but 0.
+    pub direction: [f64; 3],
+}
+
+/// How a leaf learns whether a light reaches it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shadows {
+    /// A shadow map of the posed triangles.
+    #[default]
+    Map,
+    /// A march through the octree towards the light; needs no triangles.
+    March,
+    /// Every light reaches everything.
+    Off,
+}
+
+/// What an inner node stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Opacity {
+    /// The share of its volume that is occupied, whatever the direction, as in the paper.
+    #[default]
+    Isotropic,
+    /// Along each axis by itself, so that a thin wall stays a wall.
+    Directional,
+}
+
+impl Lighting {
+    pub const SHADOW_MAPS_PX: [u32; 5] = [512, 1024, 2048, 4096, 8192];
+    pub const MAX_BOUNCES: u32 = 64;
+    pub const MAX_CONES: u32 = 256;
+    pub const MAX_ADDED: usize = 64;
+
+    /// Are all values in range? If not, the sentence names value and range.
+    pub(super) fn check(&self) -> Result<(), String> {
+        check_direction("the sun", self.sun.direction)?;
+        check_intensity("the sun", self.sun.color, self.sun.illuminance_lux)?;
+        check_intensity("the sky", self.sky_nits, 1.0)?;
+        check_intensity("emission", [1.0; 3], self.emission)?;
+        for (node, edit) in &self.edits {
+            edit.check(&format!("the light of node {node}"))?;
+        }
+        if self.added.len() > Self::MAX_ADDED {
+            return Err(format!("{} lights are added, and {} is the limit", self.added.len(), Self::MAX_ADDED));
+        }
+        for added in &self.added {
+            let name = format!("light \"{}\"", added.name);
+            added.light.check(&name)?;
+            check_direction(&name, added.direction)?;
+            if !added.position.iter().all(|coordinate| coordinate.is_finite()) {
+                return Err(format!("the position of {name} is not finite"));
+            }
+        }
+        self.check_method()
+    }
+
+    fn check_method(&self) -> Result<(), String> {
+        if !Self::SHADOW_MAPS_PX.contains(&self.shadow_map_px) {
+            let sizes = Self::SHADOW_MAPS_PX;
+            return Err(format!("a shadow map of {} texels is not one of {sizes:?}", self.shadow_map_px));
+        }
+        if !(0.0..=16.0).contains(&self.shadow_offset_voxels) {
+            return Err(format!("a shadow offset of {} voxels is not in 0 to 16", self.shadow_offset_voxels));
+        }
+        if self.bounces > Self::MAX_BOUNCES {
+            return Err(format!("{} bounces are not in 0 to {}", self.bounces, Self::MAX_BOUNCES));
+        }
+        if !(1..=Self::MAX_CONES).contains(&self.cones) {
+            return Err(format!("{} cones are not in 1 to {}", self.cones, Self::MAX_CONES));
+        }
+        if !(0.0..=120.0).contains(&self.cone_degrees) {
+            return Err(format!("an aperture of {} degrees is not in 0 to 120", self.cone_degrees));
+        }
+        Ok(())
+    }
+}
+
+impl LightEdit {
+    fn check(&self, name: &str) -> Result<(), String> {
+        check_intensity(name, self.color, self.intensity)?;
+        let (LightKind::Point { range } | LightKind::Spot { range, .. }) = self.kind else { return Ok(()) };
+        if range.is_some_and(|range| !(range.is_finite() && range > 0.0)) {
+            return Err(format!("the range of {name} is not a finite number above 0"));
+        }
+        match self.kind {
+            LightKind::Spot { inner_cone_radians: inner, outer_cone_radians: outer, .. }
+                if !(0.0 <= inner && inner < outer && outer <= std::f32::consts::FRAC_PI_2) =>
+            {
+                Err(format!(
+                    "the cone of {name} goes from {inner} to {outer} radians; it must grow from 0 to at most π/2"
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn check_intensity(name: &str, color: [f64; 3], intensity: f64) -> Result<(), String> {
+    let is_amount = |value: &f64| value.is_finite() && *value >= 0.0;
+    if color.iter().chain([&intensity]).all(is_amount) {
+        return Ok(());
+    }
+    Err(format!("colour {color:?} and intensity {intensity} of {name} must be finite and not negative"))
+}
+
+fn check_direction(name: &str, direction: [f64; 3]) -> Result<(), String> {
+    let length = glam::DVec3::from_array(direction).length();
+    if length.is_finite() && length > 0.0 {
+        return Ok(());
+    }
+    Err(format!("{name} shines along {direction:?}, which is no direction"))
+}

@@ -1,0 +1,218 @@
+//! What the picture shows, and how.
+
+use serde::{Deserialize, Serialize};
+
+use crate::scene::OrbitCamera;
+use crate::scene::camera::FOV_Y_DEGREES;
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Look {
+    pub view: View,
+    pub color: ColorBy,
+    /// Octree level shown; `None`: the leaves.
+    pub level: Option<u32>,
+    pub alpha: AlphaRule,
+    pub voxel_edges: bool,
+    /// A headlight from the camera; off shows the bare colour.
+    pub shaded: bool,
+    /// `None`: frames everything.
+    pub camera: Option<OrbitCamera>,
+    /// Also measures the filter not shown, and both against the exact posed voxelization.
+    pub accuracy: bool,
+    /// Light is multiplied by 2 to this before it is shown; `None`: what the scene's mean radiance asks for.
+    pub exposure_stops: Option<f64>,
+    pub slice: Slice,
+    /// Which light's shadow map the shadow map view shows, from 0.
+    pub shadow_map: usize,
+    /// The octree keeps the neighbour pointers that the window draws and follows.
+    pub pointers: bool,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            view: View::default(),
+            color: ColorBy::default(),
+            level: None,
+            alpha: AlphaRule::default(),
+            voxel_edges: false,
+            shaded: true,
+            camera: None,
+            accuracy: false,
+            exposure_stops: None,
+            slice: Slice::default(),
+            shadow_map: 0,
+            pointers: false,
+        }
+    }
+}
+
+impl Look {
+    /// For an octree of `depth` levels below its root.
+    pub(super) fn check(&self, depth: u32) -> Result<(), String> {
+        if let Some(level) = self.level.filter(|level| *level > depth) {
+            return Err(format!("level {level} is not one of 0 (the root) to {depth} (the leaves)"));
+        }
+        if self.exposure_stops.is_some_and(|stops| !(-40.0..=40.0).contains(&stops)) {
+            return Err(format!("an exposure of {:?} stops is not in -40 to 40", self.exposure_stops));
+        }
+        if !(0.0..=1.0).contains(&self.slice.height) {
+            return Err(format!("a slice at {} of the grid is not in 0 to 1", self.slice.height));
+        }
+        if !(1.0..=1024.0).contains(&self.slice.width_cells) {
+            return Err(format!("a width of {} cells is not in 1 to 1024", self.slice.width_cells));
+        }
+        self.camera.map_or(Ok(()), |camera| check_camera(&camera))
+    }
+
+    /// Whether the picture shows light that the octree holds.
+    pub fn shows_light(&self) -> bool {
+        match self.view {
+            View::Voxels => self.color.is_light(),
+            View::Slice => self.slice.value != SliceValue::Occupancy,
+            View::ShadowMap => true,
+            View::Mesh | View::Ghost => false,
+        }
+    }
+}
+
+fn check_camera(camera: &OrbitCamera) -> Result<(), String> {
+    if !(camera.eye.is_finite() && camera.target.is_finite()) {
+        return Err("the camera's eye and target must be finite".to_owned());
+    }
+    if camera.eye == camera.target {
+        return Err("the camera's eye and target must differ".to_owned());
+    }
+    if !FOV_Y_DEGREES.contains(&camera.fov_y_degrees) {
+        let (least, most) = (FOV_Y_DEGREES.start(), FOV_Y_DEGREES.end());
+        return Err(format!("a field of view of {} degrees is not in {least} to {most}", camera.fov_y_degrees));
+    }
+    Ok(())
+}
+
+/// A plane through the grid on which the octree is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Slice {
+    /// The plane lies across this axis.
+    pub axis: SliceAxis,
+    /// Where along the axis, 0 to 1 of the grid.
+    pub height: f64,
+    pub value: SliceValue,
+    pub sampling: Sampling,
+    pub lookup: Lookup,
+    /// Width of the samples, leaf cells: which levels are read.
+    pub width_cells: f64,
+    /// Colours go with the logarithm of the value.
+    pub logarithmic: bool,
+}
+
+impl Default for Slice {
+    fn default() -> Self {
+        Self {
+            axis: SliceAxis::default(),
+            height: 0.5,
+            value: SliceValue::default(),
+            sampling: Sampling::default(),
+            lookup: Lookup::default(),
+            width_cells: 1.0,
+            logarithmic: true,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SliceAxis {
+    X,
+    #[default]
+    Y,
+    Z,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SliceValue {
+    /// Luminance of the mean radiance, nits.
+    #[default]
+    Radiance,
+    /// Luminance of the mean irradiance, lux.
+    Irradiance,
+    /// Occupied share, 0 to 1.
+    Occupancy,
+}
+
+/// How a place between nodes gets its value (section 4.4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sampling {
+    /// The node it lies in.
+    Nearest,
+    /// The eight nodes around it, of one level.
+    Trilinear,
+    /// Trilinear on two neighbouring levels, blended by log2 of the width.
+    #[default]
+    Quadrilinear,
+}
+
+/// How the eight nodes around a place are found; the values are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Lookup {
+    /// Each by the rank of its bit in the block masks.
+    #[default]
+    Ranks,
+    /// One by descent, the others by forward pointers stored once a block.
+    BlockPointers,
+    /// The same by pointers stored with every node, as in the paper.
+    NodePointers,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum View {
+    /// The octree, ray-marched with occupancy as alpha (Fig. 8).
+    #[default]
+    Voxels,
+    /// The posed triangles.
+    Mesh,
+    /// Exact voxels of the posed mesh over the moved ones: holes red, spill blue.
+    Ghost,
+    /// A plane through the octree, sampled, in the colours of a scale.
+    Slice,
+    /// What a light sees: distances from it.
+    ShadowMap,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ColorBy {
+    #[default]
+    Albedo,
+    Normal,
+    Occupancy,
+    Object,
+    Level,
+    /// What leaves the voxels, emission included.
+    Radiance,
+    /// What arrives at them.
+    Irradiance,
+}
+
+impl ColorBy {
+    pub fn is_light(self) -> bool {
+        matches!(self, Self::Radiance | Self::Irradiance)
+    }
+}
+
+/// How much of the light a visited voxel of occupancy α stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AlphaRule {
+    /// α once a visited voxel, as in the paper's Fig. 8.
+    #[default]
+    Paper,
+    /// 1 − (1 − α)^(s/δ) for a path of length s inside it.
+    Length,
+}
