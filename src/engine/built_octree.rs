@@ -6,6 +6,7 @@ use crate::gpu::{Gpu, GpuBuffer, GpuError, KernelTiming, Recorder};
 use crate::settings::Filter;
 use crate::stages::averaging::average;
 use crate::stages::build::emit::Emitted;
+use crate::stages::build::link::Linked;
 use crate::stages::build::reduce::Masks;
 use crate::stages::build::scan::{self, Scanned};
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, emit, mark, reduce};
@@ -128,6 +129,12 @@ impl BuiltOctree {
     pub fn filled(&mut self, gpu: &Gpu, voxels: &MovingVoxels) -> Result<Filling, GpuError> {
         let out = self.emitted(gpu)?;
         self.filling(gpu, voxels, &out)
+    }
+
+    /// What neighbour pointers are made from.
+    pub fn linked(&self) -> Result<Linked, GpuError> {
+        let (_, blocks, ranks) = self.masks()?;
+        Ok(Linked { blocks, ranks, block_keys: self.buffers.block_keys.made("block keys")? })
     }
 
     fn masks(&self) -> Result<(GpuBuffer, GpuBuffer, GpuBuffer), GpuError> {

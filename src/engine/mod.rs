@@ -10,6 +10,7 @@
 
 mod built_octree;
 mod light;
+mod light_views;
 mod picture;
 mod read_voxels;
 mod record;
@@ -18,11 +19,10 @@ mod run;
 mod scene_on_gpu;
 mod steps;
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::data::octree::Slot;
+use crate::data::octree::{PointerLayout, Slot};
 use crate::data::pages::SegmentOrder;
 use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, GpuTexture, KernelTiming};
 use crate::lights::{PosedLight, posed_lights};
@@ -41,7 +41,6 @@ pub use read_voxels::WorldVoxels;
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 use run::{Comparison, FrameTimings, Running};
 use scene_on_gpu::SceneOnGpu;
-use steps::Step;
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EngineError {
@@ -129,6 +128,7 @@ struct Done {
     /// What the mesh view last drew.
     mesh_frame: Option<(FrameMatrices, Hidden)>,
     exact_masks: Option<Arc<ExactVoxels>>,
+    links: Vec<PointerLayout>,
     emission: bool,
     shadows: Option<ShadowedBy>,
     light: Option<LitBy>,
@@ -265,7 +265,7 @@ impl Engine {
             exact_known: self.exact.is_some(),
             view: self.done.view != Some((wanted.settings.look, wanted.size_px)) || mesh_moved,
             object_numbers: !self.done.object_numbers,
-            links: false,
+            links: self.links_missing(wanted),
             emission: !self.done.emission,
             shadow_maps: self.shadows_changed(wanted),
             lighting: self.done.light.as_ref() != Some(&wanted.lit_by()),
@@ -284,8 +284,10 @@ impl Engine {
             if self.plan.is_idle() {
                 return Ok(EngineState::Idle);
             }
-            let steps: VecDeque<Step> = steps::of_plan(&self.plan);
-            self.running = self.wanted.clone().map(|wanted| Running::new(wanted, self.plan.clone(), steps));
+            self.running = self.wanted.clone().map(|wanted| {
+                let steps = steps::of_plan(&self.plan, wanted.settings.lighting.bounces);
+                Running::new(wanted, self.plan.clone(), steps)
+            });
         }
         let outcome = self.run_slice(budget);
         if outcome.is_err() {

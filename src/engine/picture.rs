@@ -55,6 +55,9 @@ impl Engine {
         let rays = PixelRays::new(&self.camera(wanted)?, &grid, wanted.size_px);
         let look = &wanted.settings.look;
         match look.view {
+            View::Voxels if self.plan.shows_light() => {
+                self.record_light_view(&mut frame, wanted, (&rays, &picture))?;
+            }
             View::Voxels => {
                 let octree = self.marched_octree()?;
                 let palette = Palette::new(shown_color(look, grid.depth));
@@ -69,7 +72,8 @@ impl Engine {
                 ghost::record(&self.gpu, &mut frame, &octree, (&moved, &exact), (&view, &GHOST_COLORS), &picture);
             }
             View::Mesh => self.record_mesh(&mut frame, wanted, &picture)?,
-            View::Slice | View::ShadowMap => {}
+            View::Slice => self.record_slice(&mut frame, wanted, (&rays, &picture))?,
+            View::ShadowMap => self.record_shadow_map(&mut frame, wanted, (&rays, &picture))?,
         }
         Ok(frame)
     }

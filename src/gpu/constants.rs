@@ -8,7 +8,7 @@ use crate::data::voxel_cache::TILE_CELLS;
 use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
 use crate::stages::fill::number_objects::OBJECT_MASK;
-use crate::stages::{light, mesh, view};
+use crate::stages::{light, mesh, sample, view};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
@@ -23,6 +23,8 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("COUNTER_CLIPPED", COUNTER_CLIPPED),
     ("COUNTER_OCCUPIED", COUNTER_OCCUPIED),
     ("EMISSION_MAX", EMISSION_MAX),
+    ("FILTER_QUADRILINEAR", sample::FILTER_QUADRILINEAR),
+    ("FILTER_TRILINEAR", sample::FILTER_TRILINEAR),
     ("FRACTION_BITS", FRACTION_BITS),
     ("FRACTION_ONE", 1 << FRACTION_BITS),
     ("FULL_WEIGHT", FULL_WEIGHT),

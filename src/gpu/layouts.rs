@@ -14,9 +14,11 @@ use crate::stages::light::illuminate::LightParams;
 use crate::stages::light::inject::InjectParams;
 use crate::stages::light::shadow::{ShadowFrame, ShadowParams};
 use crate::stages::mesh::{DrawParams, MeshVertex, VertexJoints};
+use crate::stages::sample::sample_points::PointParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
 use crate::stages::view::march_light::ExposureParams;
 use crate::stages::view::mesh::MeshParams;
+use crate::stages::view::show_shadow::ShowShadowParams;
 use crate::stages::view::{GhostColors, Palette, ViewParams};
 
 /// Both sides of a layout, as Rust sees it.
@@ -68,6 +70,7 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(LevelParams, "build/emit.wgsl", "EmitParams", level),
     mirror!(LevelParams, "averaging/average.wgsl", "AverageParams", level),
     mirror!(LevelParams, "light/average_light.wgsl", "AverageLightParams", level),
+    mirror!(ShowShadowParams, "view/show_shadow.wgsl", "ShowShadowParams", least, most, layers, map_px),
     mirror!(InjectParams, "light/inject.wgsl", "InjectParams", emission_nits),
     mirror!(ExposureParams, "view/march_light.wgsl", "ExposureParams", factor),
     mirror!(ShadowFrame, "shared/shadow_frame.wgsl", "ShadowFrame", clip_from_grid, distance),
@@ -88,6 +91,7 @@ pub const MIRRORS: &[Mirror] = &[
     ),
     mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
     mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(PointParams, "sample/sample_points.wgsl", "PointParams", direction, pad),
     mirror!(
         ViewParams,
         "shared/view.wgsl",

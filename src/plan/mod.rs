@@ -95,6 +95,11 @@ impl FramePlan {
         self.rows.iter().any(|row| row.pass == pass && row.state == State::Run)
     }
 
+    /// The voxels are drawn in the light that the octree holds.
+    pub fn shows_light(&self) -> bool {
+        self.rows.iter().any(|row| row.pass == Pass::MarchLight && row.state != State::Skip)
+    }
+
     /// No row runs: no dispatch, no repaint.
     pub fn is_idle(&self) -> bool {
         self.rows.iter().all(|row| row.state != State::Run)

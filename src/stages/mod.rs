@@ -8,6 +8,7 @@ pub mod compare;
 pub mod fill;
 pub mod light;
 pub mod mesh;
+pub mod sample;
 pub mod transform;
 pub mod view;
 pub mod voxelize;

@@ -12,6 +12,8 @@ pub mod march_ref;
 pub mod mesh;
 pub mod palette;
 pub mod picture;
+pub mod show_shadow;
+pub mod show_shadow_ref;
 
 use bytemuck::{Pod, Zeroable};
 
