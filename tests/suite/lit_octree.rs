@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use octolume::data::octree::{FULL_WEIGHT, OctreeBuffers, OctreeParams, PointerLayout, Slot};
 use octolume::gpu::{Gpu, GpuBuffer};
+use octolume::settings::Lookup;
 use octolume::stages::build::link::{self, Linked};
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::sample::sample_points::{self, PointParams};
 use octolume::stages::sample::sample_points_ref::{LitNode, LitNodes};
-use octolume::stages::sample::{LookUp, SampledOctree, Sampler};
+use octolume::stages::sample::{SampledOctree, Sampler};
 
 use crate::octree_rules::{self as rules, Cell};
 use crate::stage_build::{Built, Shape};
@@ -47,8 +48,8 @@ impl LitOctree {
         LitNodes { depth: self.nodes.depth, nodes: self.nodes.nodes.iter().map(bare).collect() }
     }
 
-    pub fn sampled(&self, look_up: LookUp) -> SampledOctree {
-        SampledOctree::new(&self.built.params, &self.buffers, &self.light, look_up)
+    pub fn sampled(&self, lookup: Lookup) -> SampledOctree {
+        SampledOctree::new(&self.built.params, &self.buffers, &self.light, lookup)
             .unwrap_or_else(|error| panic!("{error}"))
     }
 
@@ -56,7 +57,7 @@ impl LitOctree {
     pub fn sample(&self, gpu: &Gpu, sampler: &Sampler, direction: DVec3, points: &[[f32; 4]]) -> Vec<[f32; 4]> {
         let buffer = upload(gpu, "points", points);
         let params = PointParams::new(direction.as_vec3().to_array());
-        let octree = self.sampled(sampler.look_up);
+        let octree = self.sampled(sampler.lookup);
         run(gpu, |frame| {
             sample_points::record(gpu, frame, &octree, (sampler, &params), &buffer, points.len() as u64);
         });

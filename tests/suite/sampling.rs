@@ -1,10 +1,10 @@
 //! Sampling the lit octree: against the f64 reference and closed forms; every look-up gives the same bits.
 
 use glam::{DVec3, Vec3};
-use octolume::settings::Filter;
+use octolume::settings::{Filter, Lookup, Sampling};
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::sample::sample_points_ref::{LitNodes, Sampled};
-use octolume::stages::sample::{LookUp, SampleFilter, SampledOctree, Sampler};
+use octolume::stages::sample::{SampledOctree, Sampler};
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
 
@@ -17,6 +17,8 @@ use crate::stage_build::Shape;
 
 const DEPTH: u32 = 5;
 const CELLS: f32 = 32.0;
+const SAMPLINGS: [Sampling; 3] = [Sampling::Nearest, Sampling::Trilinear, Sampling::Quadrilinear];
+const LOOKUPS: [Lookup; 3] = [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers];
 
 /// Some bright, some dark, from the cell alone.
 fn colourful(cell: Cell, opacity: f64) -> (DVec3, f64) {
@@ -44,29 +46,29 @@ fn position(rng: &mut TestRng) -> [f32; 3] {
 }
 
 /// What the sampler takes beside the position.
-fn level_or_width(rng: &mut TestRng, filter: SampleFilter) -> f32 {
-    match filter {
-        SampleFilter::Quadrilinear => rng.random_range(-1.0..7.0_f32).exp2(),
+fn level_or_width(rng: &mut TestRng, sampling: Sampling) -> f32 {
+    match sampling {
+        Sampling::Quadrilinear => rng.random_range(-1.0..7.0_f32).exp2(),
         _ => rng.random_range(0..=DEPTH) as f32,
     }
 }
 
-fn points(seed: u64, count: usize, filter: SampleFilter) -> Vec<[f32; 4]> {
+fn points(seed: u64, count: usize, sampling: Sampling) -> Vec<[f32; 4]> {
     let mut rng = random::rng(seed);
     let point = |_| {
         let [x, y, z] = position(&mut rng);
-        [x, y, z, level_or_width(&mut rng, filter)]
+        [x, y, z, level_or_width(&mut rng, sampling)]
     };
     (0..count).map(point).collect()
 }
 
-fn reference(lit: &LitNodes, filter: SampleFilter, direction: DVec3, point: &[f32; 4]) -> Sampled {
+fn reference(lit: &LitNodes, sampling: Sampling, direction: DVec3, point: &[f32; 4]) -> Sampled {
     let [x, y, z, at] = point.map(f64::from);
     let p = DVec3::new(x, y, z);
-    match filter {
-        SampleFilter::Nearest => lit.nearest(at as u32, p, direction),
-        SampleFilter::Trilinear => lit.trilinear(at as u32, p, direction),
-        SampleFilter::Quadrilinear => lit.quadrilinear(at, p, direction),
+    match sampling {
+        Sampling::Nearest => lit.nearest(at as u32, p, direction),
+        Sampling::Trilinear => lit.trilinear(at as u32, p, direction),
+        Sampling::Quadrilinear => lit.quadrilinear(at, p, direction),
     }
 }
 
@@ -94,7 +96,7 @@ fn assert_matches(octree: &LitOctree, sampler: &Sampler, points: &[[f32; 4]]) {
     let largest = 0.3 * 16.0;
     let mut seen = 0;
     for (point, found) in points.iter().zip(octree.sample(gpu(), sampler, direction(), points)) {
-        let expected = reference(&lit, sampler.filter, direction().as_vec3().as_dvec3(), point);
+        let expected = reference(&lit, sampler.sampling, direction().as_vec3().as_dvec3(), point);
         let off = (Vec3::from_slice(&found).as_dvec3() - expected.radiance).abs().max_element();
         let alpha_off = (f64::from(found[3]) - expected.alpha).abs();
         let limit = tolerance(largest, sampler.directional);
@@ -108,10 +110,10 @@ fn assert_matches(octree: &LitOctree, sampler: &Sampler, points: &[[f32; 4]]) {
 fn every_sampler_matches_the_reference_at_every_dense_level() {
     for dense_level in 0..DEPTH {
         let octree = random_octree(50 + u64::from(dense_level), 2500, dense_level);
-        for filter in SampleFilter::ALL {
-            let points = points(60, 3000, filter);
+        for sampling in SAMPLINGS {
+            let points = points(60, 3000, sampling);
             for directional in [false, true] {
-                assert_matches(&octree, &Sampler { filter, directional, ..Sampler::default() }, &points);
+                assert_matches(&octree, &Sampler { sampling, directional, ..Sampler::default() }, &points);
             }
         }
     }
@@ -121,15 +123,16 @@ fn every_sampler_matches_the_reference_at_every_dense_level() {
 fn ranks_and_pointers_give_the_same_bits() {
     for (dense_level, count) in [(0, 5), (0, 1500), (2, 700), (4, 3000)] {
         let octree = random_octree(70, count, dense_level);
-        for filter in SampleFilter::ALL {
-            let points = points(80 + count as u64, 20_000, filter);
+        for sampling in SAMPLINGS {
+            let points = points(80 + count as u64, 20_000, sampling);
             for directional in [false, true] {
-                let bits = LookUp::ALL.map(|look_up| {
-                    let sampled = octree.sample(gpu(), &Sampler { filter, look_up, directional }, direction(), &points);
+                let bits = LOOKUPS.map(|lookup| {
+                    let sampled =
+                        octree.sample(gpu(), &Sampler { sampling, lookup, directional }, direction(), &points);
                     bytemuck::pod_collect_to_vec::<[f32; 4], u32>(&sampled)
                 });
-                assert!(bits[0] == bits[1], "{filter:?}, pointers of blocks, dense level {dense_level}");
-                assert!(bits[0] == bits[2], "{filter:?}, pointers of nodes, dense level {dense_level}");
+                assert!(bits[0] == bits[1], "{sampling:?}, pointers of blocks, dense level {dense_level}");
+                assert!(bits[0] == bits[2], "{sampling:?}, pointers of nodes, dense level {dense_level}");
             }
         }
     }
@@ -137,7 +140,7 @@ fn ranks_and_pointers_give_the_same_bits() {
 
 #[test]
 fn every_workgroup_size_samples_alike() {
-    let points = points(90, 5000, SampleFilter::Quadrilinear);
+    let points = points(90, 5000, Sampling::Quadrilinear);
     let all = [32, 64, 256].map(|size| {
         let gpu = open().with_workgroup_size(size);
         let voxels = random::scene(91, 800, DEPTH);
@@ -151,10 +154,10 @@ fn every_workgroup_size_samples_alike() {
 fn past_every_face_the_sample_is_zero() {
     // Whatever wrapped a row would find a full grid.
     let octree = constant_field(DVec3::ONE, 0.5, 1);
-    for (filter, look_up) in SampleFilter::ALL.iter().flat_map(|f| LookUp::ALL.map(|l| (*f, l))) {
+    for (sampling, lookup) in SAMPLINGS.iter().flat_map(|s| LOOKUPS.map(|l| (*s, l))) {
         for level in 0..=DEPTH {
             let width = (1 << (DEPTH - level)) as f32;
-            let at = if filter == SampleFilter::Quadrilinear { width } else { level as f32 };
+            let at = if sampling == Sampling::Quadrilinear { width } else { level as f32 };
             // Half a node outside the grid even the last corner has no weight.
             let beyond = |axis: usize, side: f32, by: f32| {
                 let mut p = [CELLS / 2.0 + 0.3; 3];
@@ -165,7 +168,7 @@ fn past_every_face_the_sample_is_zero() {
                 .flat_map(|axis| [-1.0, 1.0].map(|side| (axis, side)))
                 .flat_map(|(axis, side)| [width, 0.5 * width, 3.0e9].map(|by| beyond(axis, side, by)))
                 .collect();
-            let sampler = Sampler { filter, look_up, directional: false };
+            let sampler = Sampler { sampling, lookup, directional: false };
             let found = octree.sample(gpu(), &sampler, DVec3::X, &outside);
             assert!(found.iter().all(|sample| *sample == [0.0; 4]), "{sampler:?}, level {level}: {found:?}");
         }
@@ -179,7 +182,7 @@ fn a_lone_voxel_spreads_over_its_neighbours_and_no_further() {
         let cell = [(); 3].map(|()| rng.random_range(0..i64::from(CELLS as u32)));
         let shape = Shape::new(DEPTH, 0, Filter::Nearest);
         let octree = LitOctree::new(gpu(), &[aligned(cell)], &shape, |_, _| (DVec3::ONE, 1.0));
-        let points = points(96, 2000, SampleFilter::Trilinear).into_iter().map(|p| [p[0], p[1], p[2], DEPTH as f32]);
+        let points = points(96, 2000, Sampling::Trilinear).into_iter().map(|p| [p[0], p[1], p[2], DEPTH as f32]);
         let near = |rng: &mut TestRng| cell.map(|c| c as f32 + rng.random_range(-1.0..2.0));
         let points: Vec<_> = points
             .chain((0..500).map(|_| {
@@ -187,8 +190,8 @@ fn a_lone_voxel_spreads_over_its_neighbours_and_no_further() {
                 [x, y, z, DEPTH as f32]
             }))
             .collect();
-        for look_up in LookUp::ALL {
-            let sampler = Sampler { filter: SampleFilter::Trilinear, look_up, directional: false };
+        for lookup in LOOKUPS {
+            let sampler = Sampler { sampling: Sampling::Trilinear, lookup, directional: false };
             for (point, found) in points.iter().zip(octree.sample(gpu(), &sampler, DVec3::X, &points)) {
                 // The tent function of each axis.
                 let tent = |axis: usize| (1.0 - (f64::from(point[axis]) - cell[axis] as f64 - 0.5).abs()).max(0.0);
@@ -205,13 +208,13 @@ fn a_constant_field_is_constant_at_every_level_and_width() {
     let radiance = DVec3::new(0.25, 3.0, 70_000.0);
     let octree = constant_field(radiance, 0.3, 2);
     let mut rng = random::rng(97);
-    for filter in SampleFilter::ALL {
+    for sampling in SAMPLINGS {
         for directional in [false, true] {
             let inside = |rng: &mut TestRng| {
-                let at = level_or_width(rng, filter);
+                let at = level_or_width(rng, sampling);
                 // Half a node from the border of the coarser level on, every corner is in the grid.
-                let width = match filter {
-                    SampleFilter::Quadrilinear => at.max(1.0).log2().ceil().exp2(),
+                let width = match sampling {
+                    Sampling::Quadrilinear => at.max(1.0).log2().ceil().exp2(),
                     _ => (DEPTH as f32 - at).exp2(),
                 }
                 .min(CELLS);
@@ -219,7 +222,7 @@ fn a_constant_field_is_constant_at_every_level_and_width() {
                 [x, y, z, at]
             };
             let points: Vec<_> = (0..4000).map(|_| inside(&mut rng)).collect();
-            let sampler = Sampler { filter, directional, ..Sampler::default() };
+            let sampler = Sampler { sampling, directional, ..Sampler::default() };
             for (point, found) in points.iter().zip(octree.sample(gpu(), &sampler, direction(), &points)) {
                 let slack = tolerance(1.0, directional) + if directional { across_slack(0.3) } else { 0.0 };
                 assert!((f64::from(found[3]) - 0.3).abs() < slack, "{point:?}: {found:?}");
@@ -234,10 +237,10 @@ fn a_constant_field_is_constant_at_every_level_and_width() {
 fn partial_occupancy_divides_out_of_a_constant_radiance() {
     let voxels = random::scene(98, 3000, DEPTH);
     let octree = LitOctree::new(gpu(), &voxels, &Shape::new(DEPTH, 1, Filter::Split), |_, a| (DVec3::splat(5.0), a));
-    for filter in SampleFilter::ALL {
+    for sampling in SAMPLINGS {
         for directional in [false, true] {
-            let points = points(99, 4000, filter);
-            let sampler = Sampler { filter, directional, ..Sampler::default() };
+            let points = points(99, 4000, sampling);
+            let sampler = Sampler { sampling, directional, ..Sampler::default() };
             let found = octree.sample(gpu(), &sampler, direction(), &points);
             for sample in found.iter().filter(|sample| sample[3] > 0.0) {
                 let color = f64::from(sample[0]) / f64::from(sample[3]);
@@ -251,8 +254,8 @@ fn partial_occupancy_divides_out_of_a_constant_radiance() {
 fn missing_pointers_are_named() {
     let mut octree = random_octree(1, 3, 2);
     octree.buffers.neighbours.free();
-    let sampled = |look_up| SampledOctree::new(&octree.built.params, &octree.buffers, &octree.light, look_up);
-    let error = sampled(LookUp::BlockPointers).expect_err("missing").to_string();
+    let sampled = |lookup| SampledOctree::new(&octree.built.params, &octree.buffers, &octree.light, lookup);
+    let error = sampled(Lookup::BlockPointers).expect_err("missing").to_string();
     assert!(error.contains("neighbour pointers"), "{error}");
-    assert!(sampled(LookUp::Ranks).is_ok());
+    assert!(sampled(Lookup::Ranks).is_ok());
 }

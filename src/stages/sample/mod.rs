@@ -8,71 +8,28 @@
 pub mod sample_points;
 pub mod sample_points_ref;
 
-use serde::{Deserialize, Serialize};
-
 use crate::data::octree::{OctreeBuffers, OctreeParams, PointerLayout};
 use crate::gpu::{GpuBuffer, GpuError, Kernel, PassBuilder};
+use crate::settings::{Lookup, Sampling};
 
 pub const FILTER_NEAREST: u32 = 0;
 pub const FILTER_TRILINEAR: u32 = 1;
 pub const FILTER_QUADRILINEAR: u32 = 2;
 
-/// How nodes around a point become one value.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SampleFilter {
-    /// The node the point lies in, of one level.
-    Nearest,
-    /// Eight nodes of one level.
-    Trilinear,
-    /// Eight nodes of each of two neighbouring levels, blended by log2 of the width.
-    #[default]
-    Quadrilinear,
-}
-
-impl SampleFilter {
-    pub const ALL: [Self; 3] = [Self::Nearest, Self::Trilinear, Self::Quadrilinear];
-
-    fn number(self) -> u32 {
-        match self {
-            Self::Nearest => FILTER_NEAREST,
-            Self::Trilinear => FILTER_TRILINEAR,
-            Self::Quadrilinear => FILTER_QUADRILINEAR,
-        }
-    }
-}
-
-/// How the nodes are found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LookUp {
-    /// Rank of each node's bit in the block masks; needs no pointers.
-    #[default]
-    Ranks,
-    /// Down from the dense levels, then hops along one pointer a block and axis.
-    BlockPointers,
-    /// The same along one pointer a node and axis: the paper's layout.
-    NodePointers,
-}
-
-impl LookUp {
-    pub const ALL: [Self; 3] = [Self::Ranks, Self::BlockPointers, Self::NodePointers];
-
-    /// The pointers it follows.
-    pub fn layout(self) -> Option<PointerLayout> {
-        match self {
-            Self::Ranks => None,
-            Self::BlockPointers => Some(PointerLayout::Blocks),
-            Self::NodePointers => Some(PointerLayout::Nodes),
-        }
+/// The pointers that a look-up follows, which the octree must then hold.
+pub fn pointer_layout(lookup: Lookup) -> Option<PointerLayout> {
+    match lookup {
+        Lookup::Ranks => None,
+        Lookup::BlockPointers => Some(PointerLayout::Blocks),
+        Lookup::NodePointers => Some(PointerLayout::Nodes),
     }
 }
 
 /// Which sampler is compiled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Sampler {
-    pub filter: SampleFilter,
-    pub look_up: LookUp,
+    pub sampling: Sampling,
+    pub lookup: Lookup,
     /// Opacity along the direction of sight instead of the mean one; `light` must hold it.
     pub directional: bool,
 }
@@ -80,11 +37,16 @@ pub struct Sampler {
 impl Sampler {
     /// Overrides of shaders/shared/look_up.wgsl.
     pub fn constants(&self) -> [(&'static str, f64); 4] {
+        let filter = match self.sampling {
+            Sampling::Nearest => FILTER_NEAREST,
+            Sampling::Trilinear => FILTER_TRILINEAR,
+            Sampling::Quadrilinear => FILTER_QUADRILINEAR,
+        };
         let flag = |on: bool| f64::from(u8::from(on));
         [
-            ("FILTER", self.filter.number().into()),
-            ("LINKED", flag(self.look_up != LookUp::Ranks)),
-            ("NODE_POINTERS", flag(self.look_up == LookUp::NodePointers)),
+            ("FILTER", filter.into()),
+            ("LINKED", flag(self.lookup != Lookup::Ranks)),
+            ("NODE_POINTERS", flag(self.lookup == Lookup::NodePointers)),
             ("DIRECTIONAL", flag(self.directional)),
         ]
     }
@@ -110,10 +72,10 @@ impl SampledOctree {
         params: &OctreeParams,
         buffers: &OctreeBuffers,
         light: &GpuBuffer,
-        look_up: LookUp,
+        lookup: Lookup,
     ) -> Result<Self, GpuError> {
         let ranks = buffers.ranks.made("block ranks")?;
-        let neighbours = match look_up.layout() {
+        let neighbours = match pointer_layout(lookup) {
             None => ranks.clone(),
             Some(PointerLayout::Blocks) => buffers.neighbours.made("neighbour pointers")?,
             Some(PointerLayout::Nodes) => buffers.node_neighbours.made("neighbour pointers of nodes")?,
