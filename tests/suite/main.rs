@@ -52,6 +52,7 @@ mod sampling;
 mod scan;
 mod scenes;
 mod shaders;
+mod shadow_maps;
 mod skin_rig;
 mod skinning;
 mod skins_hard;
