@@ -7,6 +7,7 @@ use crate::data::voxel_cache::TILE_CELLS;
 use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
 use crate::stages::fill::number_objects::OBJECT_MASK;
+use crate::stages::light::gather;
 use crate::stages::{sample, view};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
@@ -43,7 +44,10 @@ pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
     ("EDGE_FROM_PX", view::EDGE_FROM_PX),
     ("EDGE_FULL_PX", view::EDGE_FULL_PX),
     ("EDGE_SHADE", view::EDGE_SHADE),
+    ("GOLDEN_ANGLE", gather::GOLDEN_ANGLE),
     ("LEAST_LIGHT", view::LEAST_LIGHT),
+    ("LEAST_STEP", gather::LEAST_STEP),
+    ("PI", std::f64::consts::PI),
     ("SHORT_NORMAL", view::SHORT_NORMAL),
 ];
 

@@ -6,6 +6,7 @@ pub mod bench;
 pub mod build;
 pub mod compare;
 pub mod fill;
+pub mod light;
 pub mod sample;
 pub mod transform;
 pub mod view;

@@ -8,6 +8,7 @@ use octolume::gpu::{Gpu, GpuBuffer};
 use octolume::settings::Lookup;
 use octolume::stages::build::link::{self, Linked};
 use octolume::stages::fill::gather_ref::Fragment;
+use octolume::stages::light::gather::Gathering;
 use octolume::stages::sample::sample_points::{self, PointParams};
 use octolume::stages::sample::sample_points_ref::{LitNode, LitNodes};
 use octolume::stages::sample::{SampledOctree, Sampler};
@@ -51,6 +52,22 @@ impl LitOctree {
     pub fn sampled(&self, lookup: Lookup) -> SampledOctree {
         SampledOctree::new(&self.built.params, &self.buffers, &self.light, lookup)
             .unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// What gathering reads.
+    pub fn gathering(&self, directional: bool) -> Gathering {
+        let made = |slot: &Slot| slot.made("octree").expect("built");
+        let b = &self.buffers;
+        Gathering {
+            leaf_bits: made(&b.leaf_bits),
+            blocks: made(&b.blocks),
+            ranks: made(&b.ranks),
+            block_keys: made(&b.block_keys),
+            block_starts: made(&b.block_starts),
+            leaves: made(&b.leaves),
+            light: self.light.clone(),
+            directional,
+        }
     }
 
     /// Samples points of (position, level or width).

@@ -1,0 +1,4 @@
+//! Light at the leaves.
+
+pub mod gather;
+pub mod gather_ref;
