@@ -7,6 +7,7 @@ pub mod build;
 pub mod compare;
 pub mod fill;
 pub mod light;
+pub mod mesh;
 pub mod sample;
 pub mod transform;
 pub mod view;

@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 use octolume::data::packing::unpack_normal;
 use octolume::settings::Filter;
+use octolume::settings::lighting::Opacity;
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::light::gather::{self, ConeParams, Cones, Gathered};
 use octolume::stages::light::gather_ref::{self, Seen, basis, cosine_directions};
@@ -10,23 +11,25 @@ use octolume::stages::view::LEAST_LIGHT;
 use proptest::prelude::RngExt;
 
 use crate::device::{gpu, open};
-use crate::lit_octree::LitOctree;
+use crate::lit_octree::LitBuild;
 use crate::octree_rules::{self as rules, Cell};
 use crate::random::{self, ONE};
 use crate::stage_build::Shape;
 use crate::stage_rig::{read, run, upload};
 
 const DEPTH: u32 = 5;
+const ISOTROPIC: Opacity = Opacity::Isotropic;
+const DIRECTIONAL: Opacity = Opacity::Directional;
 
 /// Irradiance of every leaf by its cell.
-pub fn gathered(octree: &LitOctree, what: Gathered, cones: &Cones, directional: bool) -> Vec<(Cell, DVec3)> {
-    let gathering = octree.gathering(directional);
+pub fn gathered(octree: &LitBuild, what: Gathered, cones: &Cones, opacity: Opacity) -> Vec<(Cell, DVec3)> {
     let count = u64::from(octree.built.params.leaf_count);
     // What lies there before: bounces replace it, the sky adds to it.
     let irradiance = upload(gpu(), "irradiance", &vec![[1.0_f32; 3]; count as usize]);
     let params = ConeParams::new(cones, [1.0, 2.0, 0.5]);
     run(gpu(), |frame| {
-        gather::record(gpu(), frame, &octree.built.params, &gathering, (what, &params), &irradiance);
+        let light = (&octree.light, opacity);
+        gather::record(gpu(), frame, &octree.read_by_cones(), light, (what, &params), &irradiance);
     });
     let values: Vec<[f32; 3]> = read(gpu(), &irradiance, count);
     let of = |(cell, slot): (Cell, usize)| (cell, Vec3::from_array(values[slot]).as_dvec3());
@@ -45,9 +48,9 @@ fn solid(low: Cell, high: Cell, normal: [u32; 3]) -> impl Iterator<Item = Fragme
 }
 
 /// 16³ voxels of opacity `alpha`.
-fn full_grid(alpha: f64) -> LitOctree {
+fn full_grid(alpha: f64) -> LitBuild {
     let voxels: Vec<_> = solid([0; 3], [16; 3], [511, 511, 1022]).collect();
-    LitOctree::new(gpu(), &voxels, &Shape::new(4, 2, Filter::Nearest), |_, _| (DVec3::ONE, alpha))
+    LitBuild::new(gpu(), &voxels, &Shape::new(4, 2, Filter::Nearest), |_, _| (DVec3::ONE, alpha))
 }
 
 #[test]
@@ -55,15 +58,15 @@ fn random_scenes_match_the_reference() {
     let light = |cell: Cell, a: f64| (DVec3::from_array(cell.map(|c| f64::from(c % 5) * 0.25)), a);
     for (seed, count) in [(1, 60), (2, 2000)] {
         let octree =
-            LitOctree::new(gpu(), &random::scene(seed, count, DEPTH), &Shape::new(DEPTH, 2, Filter::Split), light);
-        for (aperture, step_diameters, directional) in
-            [(0.0, 1.0, false), (30.0, 0.5, true), (60.0, 1.0, false), (179.0, 0.25, true)]
+            LitBuild::new(gpu(), &random::scene(seed, count, DEPTH), &Shape::new(DEPTH, 2, Filter::Split), light);
+        for (aperture, step_diameters, opacity) in
+            [(0.0, 1.0, ISOTROPIC), (30.0, 0.5, DIRECTIONAL), (60.0, 1.0, ISOTROPIC), (179.0, 0.25, DIRECTIONAL)]
         {
             let cones = Cones { step_diameters, ..cones(7, aperture) };
-            let lit = if directional { octree.nodes.clone() } else { octree.isotropic() };
+            let lit = octree.lit(opacity);
             let (sky, bounce) = (
-                gathered(&octree, Gathered::Sky, &cones, directional),
-                gathered(&octree, Gathered::Bounce, &cones, directional),
+                gathered(&octree, Gathered::Sky, &cones, opacity),
+                gathered(&octree, Gathered::Bounce, &cones, opacity),
             );
             let normals = rules::leaf_slots(&octree.built).map(|(_, slot)| octree.built.leaves[slot][2]);
             for (((cell, sky), (_, bounce)), normal) in sky.into_iter().zip(bounce).zip(normals).step_by(5) {
@@ -92,9 +95,9 @@ fn a_homogeneous_medium_lets_through_what_the_closed_form_says() {
             for step_diameters in [0.25, 0.7, 1.0, 2.0] {
                 // From the middle, a cone this long stays half a node away from the border, at every level it reads.
                 let cones = Cones { step_diameters, reach_cells: 3.4, start_cells: 0.0, ..cones(6, aperture) };
-                for directional in [false, true] {
+                for opacity in [ISOTROPIC, DIRECTIONAL] {
                     for (what, arrives) in [(Gathered::Sky, 1.0), (Gathered::Bounce, 0.0)] {
-                        let all = gathered(&octree, what, &cones, directional);
+                        let all = gathered(&octree, what, &cones, opacity);
                         let middle = all.iter().find(|(cell, _)| *cell == [8; 3]).expect("a full grid");
                         let through = (1.0 - alpha).powf(3.4);
                         let expected =
@@ -102,7 +105,7 @@ fn a_homogeneous_medium_lets_through_what_the_closed_form_says() {
                         // About 15 steps of a few roundings; α of directional nodes up to 8 wide, see sampling.rs.
                         let across = 3.0 * 2.0_f64.powi(-24) * (1.0 - alpha).powf(1.0 - 8.0) / 8.0 * 3.4;
                         let tolerance = std::f64::consts::PI
-                            * (15.0 * 8.0 * 2.0_f64.powi(-24) + if directional { across } else { 0.0 });
+                            * (15.0 * 8.0 * 2.0_f64.powi(-24) + if opacity == DIRECTIONAL { across } else { 0.0 });
                         assert!(
                             (middle.1.x - expected).abs() < tolerance,
                             "α {alpha}, {cones:?}, {what:?}: {middle:?}, not {expected}"
@@ -124,15 +127,15 @@ fn the_aperture_is_the_full_apex_angle() {
     let widest = Cones { start_cells: 0.0, reach_cells: 1.0, ..cones(3, 180.0) };
     let params = ConeParams::new(&widest, [0.0; 3]);
     assert!(params.widening.is_finite() && params.widening > 1e9);
-    assert!(gathered(&octree, Gathered::Sky, &widest, false).iter().all(|(_, e)| e.is_finite()));
+    assert!(gathered(&octree, Gathered::Sky, &widest, ISOTROPIC).iter().all(|(_, e)| e.is_finite()));
 }
 
 #[test]
 fn an_empty_hemisphere_sees_the_whole_sky_and_a_closed_one_nothing() {
     // A slab with its face up, at the top of which nothing hides the sky from narrow cones.
     let slab: Vec<_> = solid([0, 0, 0], [32, 32, 6], [511, 511, 1022]).collect();
-    let octree = LitOctree::new(gpu(), &slab, &Shape::new(DEPTH, 3, Filter::Nearest), |_, a| (DVec3::ZERO, a));
-    for (cell, irradiance) in gathered(&octree, Gathered::Sky, &cones(16, 0.0), false) {
+    let octree = LitBuild::new(gpu(), &slab, &Shape::new(DEPTH, 3, Filter::Nearest), |_, a| (DVec3::ZERO, a));
+    for (cell, irradiance) in gathered(&octree, Gathered::Sky, &cones(16, 0.0), ISOTROPIC) {
         // Beside the border a cone leaves before its first step is over.
         if cell.iter().take(2).any(|c| !(2..30).contains(c)) {
             continue;
@@ -152,8 +155,8 @@ fn an_empty_hemisphere_sees_the_whole_sky_and_a_closed_one_nothing() {
 fn leaves_without_a_normal_look_both_ways() {
     // One layer: half of what it sees is the sky above, half below.
     let cloth: Vec<_> = solid([0, 0, 16], [32, 32, 17], [511; 3]).collect();
-    let octree = LitOctree::new(gpu(), &cloth, &Shape::new(DEPTH, 3, Filter::Nearest), |_, a| (DVec3::ZERO, a));
-    for (cell, irradiance) in gathered(&octree, Gathered::Sky, &cones(16, 0.0), false) {
+    let octree = LitBuild::new(gpu(), &cloth, &Shape::new(DEPTH, 3, Filter::Nearest), |_, a| (DVec3::ZERO, a));
+    for (cell, irradiance) in gathered(&octree, Gathered::Sky, &cones(16, 0.0), ISOTROPIC) {
         assert!((irradiance.x - 1.0 - std::f64::consts::PI).abs() < 1e-5, "{cell:?}: {irradiance}");
     }
 }
@@ -163,13 +166,13 @@ fn every_workgroup_size_gathers_the_same_bits() {
     let voxels = random::scene(5, 900, DEPTH);
     let all = [32, 64, 128].map(|size| {
         let gpu = open().with_workgroup_size(size);
-        let octree = LitOctree::new(&gpu, &voxels, &Shape::new(DEPTH, 2, Filter::Split), |_, a| (DVec3::ONE, a));
+        let octree = LitBuild::new(&gpu, &voxels, &Shape::new(DEPTH, 2, Filter::Split), |_, a| (DVec3::ONE, a));
         let count = u64::from(octree.built.params.leaf_count);
         let irradiance = upload(&gpu, "irradiance", &vec![[0.0_f32; 3]; count as usize]);
         let params = ConeParams::new(&cones(8, 30.0), [1.0; 3]);
         run(&gpu, |frame| {
             let what = (Gathered::Bounce, &params);
-            gather::record(&gpu, frame, &octree.built.params, &octree.gathering(false), what, &irradiance);
+            gather::record(&gpu, frame, &octree.read_by_cones(), (&octree.light, ISOTROPIC), what, &irradiance);
         });
         read::<u32>(&gpu, &irradiance, 3 * count)
     });

@@ -6,9 +6,10 @@ use glam::DVec3;
 use octolume::data::octree::{FULL_WEIGHT, OctreeBuffers, OctreeParams, PointerLayout, Slot};
 use octolume::gpu::{Gpu, GpuBuffer};
 use octolume::settings::Lookup;
+use octolume::settings::lighting::Opacity;
 use octolume::stages::build::link::{self, Linked};
 use octolume::stages::fill::gather_ref::Fragment;
-use octolume::stages::light::gather::Gathering;
+use octolume::stages::light::LitOctree;
 use octolume::stages::sample::sample_points::{self, PointParams};
 use octolume::stages::sample::sample_points_ref::{LitNode, LitNodes};
 use octolume::stages::sample::{SampledOctree, Sampler};
@@ -20,7 +21,7 @@ use crate::stage_rig::{World, read, run, upload, world_voxel};
 /// Radiance and opacity of a leaf.
 pub type LeafLight = (DVec3, f64);
 
-pub struct LitOctree {
+pub struct LitBuild {
     pub built: Built,
     pub buffers: OctreeBuffers,
     pub light: GpuBuffer,
@@ -30,7 +31,7 @@ pub struct LitOctree {
     pub nodes: LitNodes,
 }
 
-impl LitOctree {
+impl LitBuild {
     /// Builds and links; `light` says what each occupied leaf is, by its cell and stored occupancy.
     pub fn new(gpu: &Gpu, voxels: &[Fragment], shape: &Shape, light: impl Fn(Cell, f64) -> LeafLight) -> Self {
         let words: Vec<_> = voxels.iter().map(world_voxel).collect();
@@ -43,8 +44,11 @@ impl LitOctree {
         Self { built, buffers, light, neighbours, node_neighbours, nodes }
     }
 
-    /// The same without opacity along the axes, as the isotropic samplers see it.
-    pub fn isotropic(&self) -> LitNodes {
+    /// What `light` holds, as samplers of that opacity see it.
+    pub fn lit(&self, opacity: Opacity) -> LitNodes {
+        if opacity == Opacity::Directional {
+            return self.nodes.clone();
+        }
         let bare = |(key, node): (&(u32, [i32; 3]), &LitNode)| (*key, LitNode { across: None, ..*node });
         LitNodes { depth: self.nodes.depth, nodes: self.nodes.nodes.iter().map(bare).collect() }
     }
@@ -54,20 +58,8 @@ impl LitOctree {
             .unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// What gathering reads.
-    pub fn gathering(&self, directional: bool) -> Gathering {
-        let made = |slot: &Slot| slot.made("octree").expect("built");
-        let b = &self.buffers;
-        Gathering {
-            leaf_bits: made(&b.leaf_bits),
-            blocks: made(&b.blocks),
-            ranks: made(&b.ranks),
-            block_keys: made(&b.block_keys),
-            block_starts: made(&b.block_starts),
-            leaves: made(&b.leaves),
-            light: self.light.clone(),
-            directional,
-        }
+    pub fn read_by_cones(&self) -> LitOctree {
+        LitOctree::new(&self.built.params, &self.buffers).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Samples points of (position, level or width).

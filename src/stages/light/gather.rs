@@ -2,8 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::data::octree::OctreeParams;
+use super::LitOctree;
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::settings::lighting::Opacity;
 
 /// A step is never shorter than this, in cells: what bounds the steps of a cone.
 pub const LEAST_STEP: f64 = 1.0 / 16.0;
@@ -74,43 +75,29 @@ pub enum Gathered {
     Bounce,
 }
 
-/// What gathering reads.
-#[derive(Clone, Debug)]
-pub struct Gathering {
-    pub leaf_bits: GpuBuffer,
-    pub blocks: GpuBuffer,
-    pub ranks: GpuBuffer,
-    pub block_keys: GpuBuffer,
-    pub block_starts: GpuBuffer,
-    pub leaves: GpuBuffer,
-    pub light: GpuBuffer,
-    /// Whether `light` holds opacity along the axes, to be used.
-    pub directional: bool,
-}
-
-/// Writes `irradiance`, 3 f32 an occupied leaf, lux.
+/// Writes `irradiance`, 3 f32 an occupied leaf, lux. `light` must hold opacity as asked for.
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
-    octree: &OctreeParams,
-    read: &Gathering,
+    octree: &LitOctree,
+    (light, opacity): (&GpuBuffer, Opacity),
     (gathered, params): (Gathered, &ConeParams),
     irradiance: &GpuBuffer,
 ) {
     let flag = |on: bool| f64::from(u8::from(on));
-    let constants = [("SKY", flag(gathered == Gathered::Sky)), ("DIRECTIONAL", flag(read.directional))];
+    let constants = [("SKY", flag(gathered == Gathered::Sky)), ("DIRECTIONAL", flag(opacity == Opacity::Directional))];
     frame
         .pass(&gpu.kernel("light/gather.wgsl", &constants))
-        .uniform("octree", octree)
+        .uniform("octree", &octree.params)
         .uniform("cone", params)
-        .bind("leaf_bits", &read.leaf_bits)
-        .bind("blocks", &read.blocks)
-        .bind("ranks", &read.ranks)
-        .bind("block_starts", &read.block_starts)
-        .bind("block_keys", &read.block_keys)
-        .bind("light", &read.light)
-        .bind("leaves", &read.leaves)
+        .bind("leaf_bits", &octree.leaf_bits)
+        .bind("blocks", &octree.blocks)
+        .bind("ranks", &octree.ranks)
+        .bind("block_starts", &octree.block_starts)
+        .bind("block_keys", &octree.block_keys)
+        .bind("light", light)
+        .bind("leaves", &octree.leaves)
         .bind("irradiance", irradiance)
-        .bytes_moved(u64::from(octree.leaf_count) * (12 + 12 + 16))
-        .dispatch(octree.leaf_block_count.into());
+        .bytes_moved(u64::from(octree.params.leaf_count) * (12 + 12 + 16))
+        .dispatch(octree.params.leaf_block_count.into());
 }
