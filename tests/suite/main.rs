@@ -13,6 +13,7 @@ mod animation;
 mod averaging;
 mod builtin;
 mod camera;
+mod cones;
 mod device;
 mod disk_cache;
 mod disk_cache_folder;
