@@ -25,6 +25,7 @@ mod gpu_errors;
 mod hard_cases;
 mod hidden;
 mod illegal_files;
+mod lights;
 mod loading;
 mod lost_device;
 mod mesh_rig;
