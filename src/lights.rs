@@ -6,9 +6,10 @@
 
 use glam::DVec3;
 
-use crate::prepare::Prepared;
+use crate::prepare::{MotionError, Prepared};
 use crate::scene::{Light, LightKind, Pose, Scene};
 use crate::settings::lighting::{LightEdit, Lighting, SunShines};
+use crate::settings::{Settings, VisibilityError};
 
 /// A light where it is now. Directional lights have no position, point lights no direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +61,15 @@ pub struct KnownLight {
     direction: DVec3,
 }
 
+/// Why nobody knows where the lights are.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LightsError {
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    #[error(transparent)]
+    Visibility(#[from] VisibilityError),
+}
+
 /// How a light of the file is without an edit.
 pub fn unedited(light: &Light) -> LightEdit {
     let color = light.color.map(f64::from);
@@ -78,6 +88,14 @@ pub fn sun_shines(scene: &Scene, lighting: &Lighting, emits: bool) -> bool {
         SunShines::Never => false,
         SunShines::Unlit => !emits && !scene.nodes.iter().any(|node| node.light.is_some()),
     }
+}
+
+/// Every light of a pose that settings ask for.
+pub fn known_in(prepared: &Prepared, settings: &Settings) -> Result<Vec<KnownLight>, LightsError> {
+    let (scene, lighting) = (&prepared.scene, &settings.lighting);
+    let pose = prepared.pose(&settings.motion)?;
+    let shown = settings.visibility.shown_nodes(scene)?;
+    Ok(known_lights(scene, &pose, lighting, &shown, emits(prepared, lighting)))
 }
 
 /// Every light: of the scene in the order of its nodes, the sun, then what was added. `shown`: by node.

@@ -87,6 +87,7 @@ impl App {
             }
             self.find_named(&prepared.scene);
             self.desk.tree = TreeState::default();
+            self.desk.light = None;
             self.undo = Undo::default();
             self.name_window(ctx, prepared);
             let name = &prepared.scene.name;

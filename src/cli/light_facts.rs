@@ -1,6 +1,6 @@
 //! The lights of a scene, as `info` tells of them.
 
-use octolume::lights::{KnownLight, LightSource, Shines, emits, known_lights};
+use octolume::lights::{KnownLight, LightSource, Shines, known_in};
 use octolume::prepare::Prepared;
 use octolume::scene::LightKind;
 use octolume::settings::Settings;
@@ -32,10 +32,7 @@ pub struct LightFacts {
 
 /// Those of the scene in the order of its nodes, our own sun, then what was added.
 pub fn lights(prepared: &Prepared, settings: &Settings) -> anyhow::Result<Vec<LightFacts>> {
-    let (scene, lighting) = (&prepared.scene, &settings.lighting);
-    let pose = prepared.pose(&settings.motion)?;
-    let shown = settings.visibility.shown_nodes(scene)?;
-    let known = known_lights(scene, &pose, lighting, &shown, emits(prepared, lighting));
+    let known = known_in(prepared, settings)?;
     let facts = known.into_iter().map(|light| LightFacts::new(light, prepared, settings));
     Ok(facts.collect())
 }

@@ -2,6 +2,7 @@
 //! directional lights, candela for point and spot lights; radiance of the sky in nits.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
@@ -115,6 +116,8 @@ impl Lighting {
     pub const MAX_BOUNCES: u32 = 64;
     pub const MAX_CONES: u32 = 256;
     pub const MAX_ADDED: usize = 64;
+    pub const SHADOW_OFFSETS_VOXELS: RangeInclusive<f64> = 0.0..=16.0;
+    pub const CONE_DEGREES: RangeInclusive<f64> = 0.0..=120.0;
 
     /// What an added light is called that nobody has named.
     pub fn free_name(&self) -> String {
@@ -146,7 +149,7 @@ impl Lighting {
             let sizes = Self::SHADOW_MAPS_PX;
             return Err(format!("a shadow map of {} texels is not one of {sizes:?}", self.shadow_map_px));
         }
-        if !(0.0..=16.0).contains(&self.shadow_offset_voxels) {
+        if !Self::SHADOW_OFFSETS_VOXELS.contains(&self.shadow_offset_voxels) {
             return Err(format!("a shadow offset of {} voxels is not in 0 to 16", self.shadow_offset_voxels));
         }
         if self.bounces > Self::MAX_BOUNCES {
@@ -155,7 +158,7 @@ impl Lighting {
         if !(1..=Self::MAX_CONES).contains(&self.cones) {
             return Err(format!("{} cones are not in 1 to {}", self.cones, Self::MAX_CONES));
         }
-        if !(0.0..=120.0).contains(&self.cone_degrees) {
+        if !Self::CONE_DEGREES.contains(&self.cone_degrees) {
             return Err(format!("an aperture of {} degrees is not in 0 to 120", self.cone_degrees));
         }
         Ok(())
