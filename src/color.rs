@@ -14,3 +14,8 @@ pub fn gamma_from_linear(value: f64) -> f64 {
 pub fn srgb_byte(linear: f32) -> u8 {
     (gamma_from_linear(f64::from(linear)) * 255.0).round() as u8
 }
+
+/// Of linear sRGB: what the eye makes of it.
+pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}

@@ -3,7 +3,7 @@
 #import shared/threads.wgsl
 #import shared/work_list.wgsl
 #import shared/split.wgsl
-#import shared/block_rank.wgsl
+#import shared/leaf_slot.wgsl
 
 @group(0) @binding(0) var<uniform> octree: OctreeParams;
 @group(0) @binding(1) var<storage, read> work_items: array<WorkItem>;
@@ -18,11 +18,6 @@
 
 override WORKGROUP_SIZE: u32 = 64u;
 override SPLIT: bool = true;
-
-fn leaf_slot(key: u32) -> u32 {
-    let below = (leaf_bits[key >> 5u] >> (key & 24u)) & ((1u << (key & 7u)) - 1u);
-    return block_starts[2u * leaf_block_rank(key >> 3u) + 1u] + countOneBits(below);
-}
 
 fn claim(cell: vec3<i32>, weight: u32, object: u32) {
     if weight != 0u && inside_grid(cell) {

@@ -27,3 +27,9 @@ fn morton_key(cell: vec3<u32>) -> u32 {
 fn morton_cell(key: u32) -> vec3<u32> {
     return vec3<u32>(compact_bits(key), compact_bits(key >> 1u), compact_bits(key >> 2u));
 }
+
+// The key one cell further along an axis. Past the last cell of a level it outgrows the level's keys.
+fn forward_key(key: u32, axis: u32) -> u32 {
+    let mask = MORTON_X << axis;
+    return (((key | ~mask) + (1u << axis)) & mask) | (key & ~mask);
+}

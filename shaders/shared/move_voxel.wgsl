@@ -1,5 +1,6 @@
 // One voxel through one matrix: position to q, normal by sign(det)·cofactor.
 #import shared/world_voxel.wgsl
+#import shared/part.wgsl
 
 struct TransformParams {
     // N, cells along an axis.
@@ -11,18 +12,6 @@ struct TransformParams {
 // grid_from_cache, row by row; the centre's half cell is folded into the translation on the CPU.
 struct Matrix3x4 {
     rows: array<vec4<f32>, 3>,
-}
-
-// A tile of an object's cache and what moves it.
-struct Part {
-    // Added to cache positions before the matrix: parts of one skin share their joints' matrices.
-    origin: vec3<i32>,
-    first_matrix: u32,
-    // Cache voxel minus joint record index; skinned parts only.
-    joints_skew: u32,
-    // Object number in the scene.
-    object: u32,
-    pad: vec2<u32>,
 }
 
 fn move_position(position: vec3<f32>, m: Matrix3x4) -> vec3<f32> {

@@ -2,7 +2,8 @@
 // alpha, at the leaves or any level above them. In: the octree, a view. Out: the picture,
 // gamma-encoded, and the distance to where half of the light is stopped.
 #import shared/threads.wgsl
-#import shared/block_rank.wgsl
+#import shared/occupied_nodes.wgsl
+#import shared/leaf_slot.wgsl
 #import shared/march.wgsl
 #import shared/packing.wgsl
 
@@ -30,19 +31,6 @@ struct Voxel {
     normal: vec3<f32>,
 }
 
-fn node_occupied(level: u32, key: u32) -> bool {
-    if level == octree.depth {
-        return ((leaf_bits[key >> 5u] >> (key & 31u)) & 1u) != 0u;
-    }
-    return ((occupied[octree.levels[level].occupied_word + (key >> 5u)] >> (key & 31u)) & 1u) != 0u;
-}
-
-// Place among the occupied leaves of an occupied leaf.
-fn leaf_slot(key: u32) -> u32 {
-    let below = leaf_bits[key >> 5u] >> (key & 24u) & ((1u << (key & 7u)) - 1u);
-    return block_starts[2u * leaf_block_rank(key >> 3u) + 1u] + countOneBits(below);
-}
-
 fn palette_value(value: f32) -> vec3<f32> {
     return palette.colors[u32(clamp(value, 0.0, 1.0) * 255.0 + 0.5)].rgb;
 }
@@ -52,6 +40,7 @@ fn painted(albedo: vec3<f32>, occupancy: f32, normal: vec3<f32>) -> vec3<f32> {
     switch view.color_by {
         case COLOR_NORMAL: { return linear_from_gamma(0.5 * normal + 0.5); }
         case COLOR_OCCUPANCY: { return palette_value(occupancy); }
+        case COLOR_DARK: { return vec3<f32>(0.0); }
         case COLOR_LEVEL: { return palette_value(f32(view.level) / f32(octree.depth)); }
         default: { return albedo; }
     }

@@ -3,46 +3,12 @@
 // vertex moves; the second exists only where a scene has skins.
 #import shared/packing.wgsl
 #import shared/view.wgsl
+#import shared/posed_mesh.wgsl
 
 struct MeshParams {
     // From camera space in cells: x right, y up, z backward. Depth is reversed.
     clip_from_camera: mat4x4<f32>,
     world_from_camera: mat3x3<f32>,
-}
-
-struct MeshVertex {
-    position: vec3<f32>,
-    // Packed.
-    normal: u32,
-    tex_coord: vec2<f32>,
-    // Linear, 8 bits each.
-    color: u32,
-    pad: u32,
-}
-
-struct VertexJoints {
-    // 16 bits each.
-    joints: vec2<u32>,
-    weights: array<f32, 4>,
-}
-
-// camera_from_mesh, in cells.
-struct CameraMatrix {
-    rows: array<vec4<f32>, 3>,
-}
-
-struct DrawParams {
-    base_color: vec4<f32>,
-    first_index: u32,
-    first_vertex: u32,
-    first_matrix: u32,
-    object: u32,
-    // ALPHA_*.
-    alpha_mode: u32,
-    // Less alpha than this is not there, under ALPHA_MASK.
-    cutoff: f32,
-    unlit: u32,
-    pad: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: ViewParams;
@@ -52,7 +18,7 @@ struct DrawParams {
 @group(0) @binding(4) var<storage, read> indices: array<u32>;
 @group(0) @binding(5) var<storage, read> vertices: array<MeshVertex>;
 @group(0) @binding(6) var<storage, read> vertex_joints: array<VertexJoints>;
-@group(0) @binding(7) var<storage, read> matrices: array<CameraMatrix>;
+@group(0) @binding(7) var<storage, read> matrices: array<MeshMatrix>;
 @group(0) @binding(8) var base_color: texture_2d<f32>;
 @group(0) @binding(9) var base_color_sampler: sampler;
 
@@ -69,18 +35,8 @@ struct Pixel {
     @location(1) distance: vec4<f32>,
 }
 
-// sign(det)·cofactor: right for any scale, mirrored or not.
-fn moved_normal(n: vec3<f32>, m: CameraMatrix) -> vec3<f32> {
-    let c0 = cross(m.rows[1].xyz, m.rows[2].xyz);
-    let c1 = cross(m.rows[2].xyz, m.rows[0].xyz);
-    let c2 = cross(m.rows[0].xyz, m.rows[1].xyz);
-    let moved = vec3<f32>(dot(c0, n), dot(c1, n), dot(c2, n));
-    return select(moved, -moved, dot(m.rows[0].xyz, c0) < 0.0);
-}
-
-fn placed(v: MeshVertex, m: CameraMatrix) -> Vertex {
-    let p = vec4<f32>(v.position, 1.0);
-    let position = vec3<f32>(dot(m.rows[0], p), dot(m.rows[1], p), dot(m.rows[2], p));
+fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
+    let position = moved_position(v, m);
     let normal = moved_normal(unpack_normal(v.normal), m);
     // Scaled once more, so that no cofactor of a small object vanishes in interpolation.
     let unit = normal * inverseSqrt(max(dot(normal, normal), 1e-37));
@@ -89,43 +45,13 @@ fn placed(v: MeshVertex, m: CameraMatrix) -> Vertex {
 
 @vertex
 fn rigid(@builtin(vertex_index) number: u32) -> Vertex {
-    let vertex = draw.first_vertex + indices[draw.first_index + number];
-    return placed(vertices[vertex], matrices[draw.first_matrix]);
+    return placed(vertices[vertex_of(number)], matrices[draw.first_matrix]);
 }
 
 @vertex
 fn skinned(@builtin(vertex_index) number: u32) -> Vertex {
-    let vertex = draw.first_vertex + indices[draw.first_index + number];
-    let bound = vertex_joints[vertex];
-    let joints = vec4<u32>(bound.joints.x & 0xffffu, bound.joints.x >> 16u, bound.joints.y & 0xffffu, bound.joints.y >> 16u);
-    var sum = array<vec4<f32>, 3>();
-    var total = 0.0;
-    for (var i = 0u; i < 4u; i += 1u) {
-        let weight = bound.weights[i];
-        // A joint without weight is not even read: its matrix may be anything.
-        if weight > 0.0 {
-            let m = matrices[draw.first_matrix + joints[i]];
-            sum = array(sum[0] + weight * m.rows[0], sum[1] + weight * m.rows[1], sum[2] + weight * m.rows[2]);
-            total += weight;
-        }
-    }
-    return placed(vertices[vertex], CameraMatrix(array(sum[0] / total, sum[1] / total, sum[2] / total)));
-}
-
-// 0 … 1 in an order that spreads: a share of pixels stands for a share of coverage.
-fn threshold(pixel: vec2<u32>) -> f32 {
-    let x = pixel.x ^ pixel.y;
-    let order = ((x & 1u) << 3u) | ((pixel.y & 1u) << 2u) | ((x & 2u)) | ((pixel.y & 2u) >> 1u);
-    return (f32(order) + 0.5) / 16.0;
-}
-
-// Transparency without an order: MASK by its cutoff, BLEND by a share of the pixels.
-fn is_there(alpha: f32, pixel: vec2<u32>) -> bool {
-    switch draw.alpha_mode {
-        case ALPHA_MASK: { return alpha >= draw.cutoff; }
-        case ALPHA_BLEND: { return alpha > threshold(pixel); }
-        default: { return true; }
-    }
+    let vertex = vertex_of(number);
+    return placed(vertices[vertex], skinned_matrix(vertex));
 }
 
 @fragment

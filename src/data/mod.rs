@@ -1,6 +1,7 @@
 //! What lives between stages, each with its memory layout drawn.
 
 pub mod grid;
+pub mod light;
 pub mod octree;
 pub mod packing;
 pub mod pages;

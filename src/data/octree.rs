@@ -13,10 +13,12 @@
 //! nodes       4 words an inner node, see shaders/shared/node.wgsl
 //! block_starts  2 words a leaf block: its first sorted voxel, its first leaf; totals at the end
 //! leaves      3 words an *occupied* leaf: occupancy (2^24 = full), albedo rgb8, normal 10|10|10
+//! neighbours  3 words a block: rank of the block ahead along x, y, z; NO_BLOCK = none (section 4.4)
+//! node_neighbours  3 words a sparse node, leaves too: index of the node ahead, as in the paper
 //! ```
 //!
-//! Order is key order: the same in every run. Leaves (level `depth`) have no node payload; the
-//! blocks of level depth−1 are called leaf blocks.
+//! Order is key order: the same in every run. Leaves (level `depth`) have no node payload, though
+//! indices count them on; the blocks of level depth−1 are called leaf blocks.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -134,6 +136,26 @@ impl OctreeParams {
     }
 }
 
+/// Who holds the forward neighbour pointers of section 4.4.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PointerLayout {
+    /// One an axis for the eight nodes of a block; theirs follow.
+    Blocks,
+    /// One an axis and node, as in the paper.
+    Nodes,
+}
+
+impl PointerLayout {
+    /// Size of the pointers of all sparse levels.
+    pub fn words(self, octree: &OctreeParams) -> u64 {
+        let a_block = match self {
+            Self::Blocks => 3,
+            Self::Nodes => 24,
+        };
+        a_block * u64::from(octree.block_count)
+    }
+}
+
 /// The buffers of one octree. They grow with what is built and are kept for the next build.
 #[derive(Debug, Default)]
 pub struct OctreeBuffers {
@@ -149,6 +171,8 @@ pub struct OctreeBuffers {
     pub block_starts: Slot,
     pub leaves: Slot,
     pub leaf_objects: Slot,
+    pub neighbours: Slot,
+    pub node_neighbours: Slot,
     pub places: Slot,
     pub sorted_voxels: Slot,
     pub heavy_blocks: Slot,

@@ -6,6 +6,7 @@ use crate::gpu::{Gpu, GpuBuffer, GpuError, KernelTiming, Recorder};
 use crate::settings::Filter;
 use crate::stages::averaging::average;
 use crate::stages::build::emit::Emitted;
+use crate::stages::build::link::Linked;
 use crate::stages::build::reduce::Masks;
 use crate::stages::build::scan::{self, Scanned};
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, emit, mark, reduce};
@@ -117,12 +118,23 @@ impl BuiltOctree {
     pub fn record_object_numbers(&mut self, gpu: &Gpu, voxels: &MovingVoxels) -> Result<Recorder, GpuError> {
         let mut frame = Recorder::default();
         let (leaf_bits, ..) = self.masks()?;
-        let out = self.emitted(gpu)?;
-        let fill = self.filling(gpu, voxels, &out)?;
+        let fill = self.filled(gpu, voxels)?;
         let objects = self.buffers.leaf_objects.ensure(gpu, "leaf objects", 4 * u64::from(self.params.leaf_count))?;
         let octree = (&self.params, self.filter);
         number_objects::record(gpu, &mut frame, voxels, octree, &fill, (&leaf_bits, &objects));
         Ok(frame)
+    }
+
+    /// The buffers of a finished filling.
+    pub fn filled(&mut self, gpu: &Gpu, voxels: &MovingVoxels) -> Result<Filling, GpuError> {
+        let out = self.emitted(gpu)?;
+        self.filling(gpu, voxels, &out)
+    }
+
+    /// What neighbour pointers are made from.
+    pub fn linked(&self) -> Result<Linked, GpuError> {
+        let (_, blocks, ranks) = self.masks()?;
+        Ok(Linked { blocks, ranks, block_keys: self.buffers.block_keys.made("block keys")? })
     }
 
     fn masks(&self) -> Result<(GpuBuffer, GpuBuffer, GpuBuffer), GpuError> {

@@ -9,6 +9,8 @@
 //! playing animation always shows something.
 
 mod built_octree;
+mod light;
+mod light_views;
 mod picture;
 mod read_voxels;
 mod record;
@@ -17,27 +19,28 @@ mod run;
 mod scene_on_gpu;
 mod steps;
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::data::octree::Slot;
+use crate::data::octree::{PointerLayout, Slot};
 use crate::data::pages::SegmentOrder;
 use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, GpuTexture, KernelTiming};
+use crate::lights::{PosedLight, posed_lights};
 use crate::plan::{self, Changes, FramePlan, SceneFacts};
 use crate::prepare::{ExactVoxels, FrameMatrices, MotionError, Prepared};
+use crate::scene::Pose;
 use crate::settings::{ColorBy, Filter, Hidden, Look, Settings, View, VisibilityError};
 use crate::stages::fill::number_objects::OBJECT_MASK;
+use crate::stages::mesh::MeshScene;
 use crate::stages::view::Picture;
-use crate::stages::view::mesh_scene::MeshScene;
 
 pub use built_octree::BuiltOctree;
+use light::{LightOnGpu, LitBy, ShadowedBy};
 use picture::ExactMasks;
 pub use read_voxels::WorldVoxels;
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 use run::{Comparison, FrameTimings, Running};
 use scene_on_gpu::SceneOnGpu;
-use steps::Step;
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EngineError {
@@ -77,8 +80,10 @@ pub struct Engine {
     comparison_counts: Slot,
     comparison: Comparison,
     exact_masks: ExactMasks,
+    light: LightOnGpu,
     picture: Option<Picture>,
     mesh: Option<MeshScene>,
+    mesh_matrices: Slot,
     mesh_depth: Option<GpuTexture>,
     timings: FrameTimings,
 }
@@ -88,16 +93,23 @@ pub struct Engine {
 struct Wanted {
     settings: Settings,
     size_px: [u32; 2],
+    pose: Arc<Pose>,
+    lights: Vec<PosedLight>,
     frame: FrameMatrices,
     hidden: Hidden,
     facts: SceneFacts,
 }
 
 impl Wanted {
+    fn lit_by(&self) -> LitBy {
+        LitBy { lights: self.lights.clone(), lighting: self.settings.lighting.clone() }
+    }
+
     /// Nothing of the scene is in the picture: all of it is hidden, or outside the grid.
     fn shows_nothing(&self) -> bool {
         match self.settings.look.view {
-            View::Mesh | View::ShadowMap => self.facts.triangles == 0,
+            View::Mesh => self.facts.triangles == 0,
+            View::ShadowMap => self.facts.triangles == 0 || self.facts.lights == 0,
             View::Voxels | View::Ghost | View::Slice => self.facts.voxels() == 0,
         }
     }
@@ -116,6 +128,11 @@ struct Done {
     /// What the mesh view last drew.
     mesh_frame: Option<(FrameMatrices, Hidden)>,
     exact_masks: Option<Arc<ExactVoxels>>,
+    links: Vec<PointerLayout>,
+    emission: bool,
+    shadows: Option<ShadowedBy>,
+    light: Option<LitBy>,
+    irradiance: bool,
 }
 
 impl Engine {
@@ -127,8 +144,10 @@ impl Engine {
     pub fn with_segment_order(gpu: Arc<Gpu>, segment_order: SegmentOrder) -> Self {
         Self {
             exact_masks: ExactMasks::default(),
+            light: LightOnGpu::default(),
             picture: None,
             mesh: None,
+            mesh_matrices: Slot::default(),
             mesh_depth: None,
             gpu,
             segment_order,
@@ -163,6 +182,7 @@ impl Engine {
         self.exact = None;
         self.exact_bits = None;
         self.exact_masks = ExactMasks::default();
+        self.light = LightOnGpu::default();
         self.mesh = None;
         self.comparison = Comparison::default();
         self.timings = FrameTimings::default();
@@ -184,10 +204,14 @@ impl Engine {
         check_object_numbers(prepared, &settings.look)?;
         let hidden = prepared.hidden(&settings.visibility)?;
         let frame = prepared.fold(&settings.motion, settings.discretization.anchor, &hidden)?;
-        let facts = scene_on_gpu::facts(prepared, &frame, &hidden);
+        let pose = Arc::new(prepared.pose(&settings.motion)?);
+        let shown = settings.visibility.shown_nodes(&prepared.scene)?;
+        let emits = prepared.brightest_emission > 0.0 && settings.lighting.emission > 0.0;
+        let lights = posed_lights(&prepared.scene, &pose, &settings.lighting, &shown, emits);
+        let facts = SceneFacts { lights: lights.len() as u32, ..scene_on_gpu::facts(prepared, &frame, &hidden) };
         // A picture has at least one pixel.
         let size_px = size_px.map(|size| size.max(1));
-        self.wanted = Some(Wanted { settings: settings.clone(), size_px, frame, hidden, facts });
+        self.wanted = Some(Wanted { settings: settings.clone(), size_px, pose, lights, frame, hidden, facts });
         if self.running.is_none() {
             self.make_plan();
         }
@@ -241,6 +265,11 @@ impl Engine {
             exact_known: self.exact.is_some(),
             view: self.done.view != Some((wanted.settings.look, wanted.size_px)) || mesh_moved,
             object_numbers: !self.done.object_numbers,
+            links: self.links_missing(wanted),
+            emission: !self.done.emission,
+            shadow_maps: self.shadows_changed(wanted),
+            lighting: self.done.light.as_ref() != Some(&wanted.lit_by()),
+            irradiance: !self.done.irradiance,
         }
     }
 
@@ -255,8 +284,10 @@ impl Engine {
             if self.plan.is_idle() {
                 return Ok(EngineState::Idle);
             }
-            let steps: VecDeque<Step> = steps::of_plan(&self.plan);
-            self.running = self.wanted.clone().map(|wanted| Running::new(wanted, self.plan.clone(), steps));
+            self.running = self.wanted.clone().map(|wanted| {
+                let steps = steps::of_plan(&self.plan, wanted.settings.lighting.bounces);
+                Running::new(wanted, self.plan.clone(), steps)
+            });
         }
         let outcome = self.run_slice(budget);
         if outcome.is_err() {

@@ -12,11 +12,11 @@ use crate::scene::camera::camera_from_scene_camera;
 use crate::settings::{Hidden, View};
 use crate::stages::build::COUNTERS;
 use crate::stages::build::reduce::{self, Masks};
+use crate::stages::mesh::{MeshScene, PosedMesh};
 use crate::stages::view::camera::PixelRays;
 use crate::stages::view::ghost::{self, LeafSet};
 use crate::stages::view::march::{self, MarchedOctree};
 use crate::stages::view::mesh::{self, MeshTarget, MeshView};
-use crate::stages::view::mesh_scene::MeshScene;
 use crate::stages::view::picture::depth_buffer;
 use crate::stages::view::{BACKGROUND, GHOST_COLORS, Palette, Picture, ViewParams, shown_color};
 
@@ -55,6 +55,9 @@ impl Engine {
         let rays = PixelRays::new(&self.camera(wanted)?, &grid, wanted.size_px);
         let look = &wanted.settings.look;
         match look.view {
+            View::Voxels if self.plan.shows_light() => {
+                self.record_light_view(&mut frame, wanted, (&rays, &picture))?;
+            }
             View::Voxels => {
                 let octree = self.marched_octree()?;
                 let palette = Palette::new(shown_color(look, grid.depth));
@@ -69,7 +72,8 @@ impl Engine {
                 ghost::record(&self.gpu, &mut frame, &octree, (&moved, &exact), (&view, &GHOST_COLORS), &picture);
             }
             View::Mesh => self.record_mesh(&mut frame, wanted, &picture)?,
-            View::Slice | View::ShadowMap => {}
+            View::Slice => self.record_slice(&mut frame, wanted, (&rays, &picture))?,
+            View::ShadowMap => self.record_shadow_map(&mut frame, wanted, (&rays, &picture))?,
         }
         Ok(frame)
     }
@@ -79,10 +83,13 @@ impl Engine {
         let camera = self.camera(wanted)?;
         let pose = prepared.pose(&wanted.settings.motion)?;
         let depth = self.mesh_depth(wanted.size_px)?;
-        let mesh = self.mesh.as_mut().ok_or_else(|| missing("mesh vertices"))?;
-        let seen =
-            MeshView { camera: &camera, grid: &prepared.grid, look: &wanted.settings.look, hidden: &wanted.hidden };
-        Ok(mesh::record(&self.gpu, frame, mesh, &pose, seen, MeshTarget { picture, depth: &depth })?)
+        let mesh = self.mesh.as_ref().ok_or_else(|| missing("mesh vertices"))?;
+        let camera_from_world = mesh::camera_from_world(&camera, &prepared.grid);
+        let of_pose = (&pose, &wanted.hidden);
+        let posed = PosedMesh::new(&self.gpu, mesh, &mut self.mesh_matrices, of_pose, &camera_from_world)?;
+        let seen = MeshView { camera: &camera, grid: &prepared.grid, look: &wanted.settings.look };
+        mesh::record(&self.gpu, frame, &posed, seen, MeshTarget { picture, depth: &depth });
+        Ok(())
     }
 
     /// Uploads what the mesh view draws, for about `budget`; says whether all is there.

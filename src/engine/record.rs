@@ -6,9 +6,13 @@ use super::built_octree::BuiltOctree;
 use super::scene_on_gpu::SceneOnGpu;
 use super::steps::Which;
 use super::{Engine, EngineError, Wanted, missing, other_filter};
+use crate::data::octree::PointerLayout;
 use crate::gpu::{GpuBuffer, GpuError, Recorder};
 use crate::plan::{FramePlan, Pass};
+use crate::settings::View;
+use crate::stages::build::link;
 use crate::stages::compare::compare_sets;
+use crate::stages::sample;
 use crate::stages::transform::{MovingVoxels, rigid, skinned};
 
 impl Engine {
@@ -61,6 +65,10 @@ impl Engine {
             Which::Shown => {
                 self.done.octree = None;
                 self.done.object_numbers = false;
+                self.done.links.clear();
+                self.done.emission = false;
+                self.done.light = None;
+                self.done.irradiance = false;
                 self.done.view = None;
             }
             Which::Other => self.done.other = None,
@@ -69,6 +77,33 @@ impl Engine {
         let gpu = Arc::clone(&self.gpu);
         let shape = (discretization.depth(), discretization.dense_level(), filter);
         Ok(self.octree(which).record_masks(&gpu, &voxels, shape)?)
+    }
+
+    /// Neighbour pointers that the settings follow or show.
+    pub(super) fn wanted_pointers(&self, wanted: &Wanted) -> Vec<PointerLayout> {
+        let look = &wanted.settings.look;
+        let followed = if look.view == View::Slice { sample::pointer_layout(look.slice.lookup) } else { None };
+        let shown = look.pointers.then_some(PointerLayout::Blocks);
+        [followed, shown.filter(|shown| followed != Some(*shown))].into_iter().flatten().collect()
+    }
+
+    pub(super) fn links_missing(&self, wanted: &Wanted) -> bool {
+        self.wanted_pointers(wanted).iter().any(|layout| !self.done.links.contains(layout))
+    }
+
+    pub(super) fn record_links(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let octree = self.shown.params;
+        let linked = self.shown.linked()?;
+        for layout in self.wanted_pointers(wanted) {
+            let slot = match layout {
+                PointerLayout::Blocks => &mut self.shown.buffers.neighbours,
+                PointerLayout::Nodes => &mut self.shown.buffers.node_neighbours,
+            };
+            let neighbours = slot.ensure(&self.gpu, "neighbour pointers", 4 * layout.words(&octree))?;
+            link::record(&self.gpu, &mut frame, &octree, &linked, (layout, &neighbours));
+        }
+        Ok(frame)
     }
 
     pub(super) fn record_comparison(&mut self, which: Which) -> Result<Recorder, EngineError> {

@@ -4,8 +4,9 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::steps::{Step, Which};
+use super::steps::{Step, Stored, Which};
 use super::{Engine, EngineError, EngineState, Wanted, missing, other_filter};
+use crate::data::light::LIGHT_BYTES;
 use crate::gpu::{GpuBuffer, Job, JobState, KernelTiming, PendingRead};
 use crate::plan::FramePlan;
 use crate::settings::View;
@@ -50,17 +51,21 @@ pub struct FrameTimings {
     pub moved: Vec<KernelTiming>,
     build: Vec<KernelTiming>,
     numbered: Vec<KernelTiming>,
+    linked: Vec<KernelTiming>,
+    emission: Vec<KernelTiming>,
+    shadows: Vec<KernelTiming>,
+    lit: Vec<KernelTiming>,
+    irradiance: Vec<KernelTiming>,
     picture: Vec<KernelTiming>,
     compared: Vec<KernelTiming>,
 }
 
 impl FrameTimings {
     pub fn all(&self) -> Vec<KernelTiming> {
-        [&self.moved, &self.build, &self.numbered, &self.picture, &self.compared]
-            .into_iter()
-            .flatten()
-            .cloned()
-            .collect()
+        let built = [&self.moved, &self.build, &self.numbered, &self.linked];
+        let lit = [&self.emission, &self.shadows, &self.lit, &self.irradiance];
+        let shown = [&self.picture, &self.compared];
+        built.into_iter().chain(lit).chain(shown).flatten().cloned().collect()
     }
 }
 
@@ -129,6 +134,18 @@ impl Engine {
                 let voxels = self.voxels()?;
                 job(self.shown.record_object_numbers(&self.gpu, &voxels)?)
             }
+            Step::LinkNodes => job(self.record_links(&running.wanted)?),
+            Step::Emission => job(self.record_emission()?),
+            Step::Shadows => job(self.record_shadows(&running.wanted)?),
+            Step::Illuminate => job(self.record_illuminate(&running.wanted)?),
+            Step::Inject { bounced } => job(self.record_inject(&running.wanted, bounced)?),
+            Step::GatherSky => job(self.record_sky(&running.wanted)?),
+            Step::GatherBounce => job(self.record_bounce(&running.wanted)?),
+            Step::Irradiance => job(self.record_irradiance(&running.wanted)?),
+            Step::LightRoot(stored) => {
+                let light = self.light.stored(stored).made("light")?;
+                self.read(&light, LIGHT_BYTES)
+            }
             Step::ReduceExact => job(self.record_exact_masks()?),
             Step::Picture => job(self.record_picture(&running.wanted)?),
             Step::Compare(which) => job(self.record_comparison(which)?),
@@ -159,6 +176,7 @@ impl Engine {
         match step {
             Step::Sizes(which) => self.octree(which).set_sizes(&words),
             Step::Root(which) => self.octree(which).occupancy = u64::from(words[0]) | u64::from(words[1]) << 32,
+            Step::LightRoot(stored) => self.light.set_root(stored, bytemuck::pod_read_unaligned(bytes)),
             Step::Counts(Which::Shown) => self.comparison.shown = Some([0, 1, 2].map(|i| u64::from(words[i]))),
             Step::Counts(Which::Other) => self.comparison.other = Some([0, 1, 2].map(|i| u64::from(words[i]))),
             _ => {}
@@ -188,6 +206,26 @@ impl Engine {
                 self.done.object_numbers = true;
                 self.timings.numbered = took;
             }
+            Step::LinkNodes => {
+                self.done.links = self.wanted_pointers(wanted);
+                self.timings.linked = took;
+            }
+            Step::Emission => {
+                self.done.emission = true;
+                self.timings.emission = took;
+            }
+            Step::Shadows => {
+                self.done.shadows = self.shadowed_by(wanted);
+                self.timings.shadows = took;
+            }
+            Step::Illuminate => self.timings.lit = took,
+            Step::Inject { .. } | Step::GatherSky | Step::GatherBounce => self.timings.lit.extend(took),
+            Step::LightRoot(Stored::Radiance) => {
+                self.done.light = Some(wanted.lit_by());
+                self.done.irradiance = false;
+            }
+            Step::Irradiance => self.timings.irradiance = took,
+            Step::LightRoot(Stored::Irradiance) => self.done.irradiance = true,
             Step::ReduceExact => self.done.exact_masks = self.exact.clone(),
             Step::Picture => self.picture_finished(wanted, took),
             Step::Compare(Which::Shown) => self.timings.compared = took,

@@ -3,7 +3,8 @@
 
 use std::sync::Arc;
 
-use crate::data::octree::Slot;
+use crate::data::light::pack_emission;
+use crate::data::octree::{NO_BLOCK, Slot};
 use crate::data::pages::{Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
 use crate::gpu::{Gpu, GpuBuffer, GpuError};
 use crate::plan::SceneFacts;
@@ -16,8 +17,9 @@ pub struct SceneOnGpu {
     prepared: Arc<Prepared>,
     cache_voxels: GpuBuffer,
     cache_joints: Option<GpuBuffer>,
-    /// First uploaded voxel of each cache, and its distance from the cache's first joint record.
-    cache_starts: Vec<(u32, u32)>,
+    /// In units of the brightest; made only where something emits.
+    cache_emission: Option<GpuBuffer>,
+    cache_starts: Vec<CacheStart>,
     pages: Pages,
     /// What the matrices, parts and pages on the GPU were made from.
     frame: FrameMatrices,
@@ -27,6 +29,16 @@ pub struct SceneOnGpu {
     parts: Slot,
     matrices: Slot,
     world_voxels: Slot,
+}
+
+/// Where a cache begins among all that is uploaded.
+#[derive(Clone, Copy, Debug)]
+struct CacheStart {
+    first_voxel: u32,
+    /// Distance from the cache's first joint record.
+    joints_skew: u32,
+    /// Distance from its first emission record; [`NO_BLOCK`] without any.
+    emission_skew: u32,
 }
 
 /// What of a frame differs from the one on the GPU.
@@ -42,7 +54,14 @@ pub fn facts(prepared: &Prepared, frame: &FrameMatrices, hidden: &Hidden) -> Sce
     let mut facts = SceneFacts::default();
     for (part, _) in prepared.parts.iter().zip(&frame.resident).filter(|(_, resident)| **resident) {
         let voxels = part.tile.voxels.len() as u64;
-        if prepared.is_skinned(part) { facts.skinned_voxels += voxels } else { facts.rigid_voxels += voxels }
+        if prepared.is_skinned(part) {
+            facts.skinned_voxels += voxels
+        } else {
+            facts.rigid_voxels += voxels
+        }
+        if !prepared.caches[prepared.objects[part.object].cache].emission.is_empty() {
+            facts.emissive_voxels += voxels;
+        }
     }
     let shown = (0..).zip(&prepared.objects).filter(|(index, _)| !hidden.contains(*index));
     let meshes = shown.map(|(_, object)| &prepared.scene.meshes[object.object.mesh]);
@@ -55,17 +74,25 @@ impl SceneOnGpu {
     pub fn upload(gpu: &Gpu, prepared: &Arc<Prepared>, order: SegmentOrder) -> Result<Self, GpuError> {
         let mut voxels = Vec::new();
         let mut joints = Vec::new();
+        let mut emission = Vec::new();
         let mut cache_starts = Vec::new();
         for cache in &prepared.caches {
-            cache_starts.push((voxels.len() as u32, (voxels.len() - joints.len()) as u32));
+            let no_emission = cache.emission.is_empty();
+            cache_starts.push(CacheStart {
+                first_voxel: voxels.len() as u32,
+                joints_skew: (voxels.len() - joints.len()) as u32,
+                emission_skew: if no_emission { NO_BLOCK } else { (voxels.len() - emission.len()) as u32 },
+            });
             voxels.extend_from_slice(&cache.voxels);
             joints.extend_from_slice(&cache.joints);
+            emission.extend(cache.emission.iter().map(|voxel| pack_emission(*voxel, prepared.brightest_emission)));
         }
         let cache_joints = if joints.is_empty() { None } else { Some(gpu.upload("cache joints", &joints)?) };
         Ok(Self {
             prepared: Arc::clone(prepared),
             cache_voxels: gpu.upload("cache voxels", &voxels)?,
             cache_joints,
+            cache_emission: if emission.is_empty() { None } else { Some(gpu.upload("cache emission", &emission)?) },
             cache_starts,
             pages: Pages::new(order),
             frame: FrameMatrices::default(),
@@ -103,7 +130,7 @@ impl SceneOnGpu {
             self.exchange_objects(gpu, frame)?;
         }
         let parts: Vec<Part> =
-            frame.parts.iter().enumerate().map(|(index, part)| self.with_joints(index, part)).collect();
+            frame.parts.iter().enumerate().map(|(index, part)| self.with_records(index, part)).collect();
         let part_bytes = size_of_val(parts.as_slice()) as u64;
         let matrix_bytes = (frame.matrices.len() * size_of::<Matrix3x4>()) as u64;
         let buffer = self.parts.ensure(gpu, "parts", part_bytes)?;
@@ -114,9 +141,9 @@ impl SceneOnGpu {
         Ok(())
     }
 
-    fn with_joints(&self, index: usize, part: &Part) -> Part {
-        let cache = self.prepared.objects[self.prepared.parts[index].object].cache;
-        Part { joints_skew: self.cache_starts[cache].1, ..*part }
+    fn with_records(&self, index: usize, part: &Part) -> Part {
+        let start = self.cache_starts[self.prepared.objects[self.prepared.parts[index].object].cache];
+        Part { joints_skew: start.joints_skew, emission_skew: start.emission_skew, ..*part }
     }
 
     fn exchange_objects(&mut self, gpu: &Gpu, frame: &FrameMatrices) -> Result<(), GpuError> {
@@ -129,7 +156,8 @@ impl SceneOnGpu {
             let part = &self.prepared.parts[index];
             let voxels = part.tile.voxels.len() as u32;
             self.pages.enter(index as u32, voxels);
-            let first_voxel = self.cache_starts[self.prepared.objects[part.object].cache].0 + part.tile.voxels.start;
+            let cache = self.prepared.objects[part.object].cache;
+            let first_voxel = self.cache_starts[cache].first_voxel + part.tile.voxels.start;
             work.push(WorkPart { part: index as u32, object: part.object as u32, first_voxel, voxels });
         }
         self.work = WorkList::new(&self.pages, work);
@@ -159,6 +187,11 @@ impl SceneOnGpu {
             rigid_threads,
             skinned_threads: self.work.threads - rigid_threads,
         })
+    }
+
+    /// Emission records of the caches; `None` where nothing emits.
+    pub fn cache_emission(&self) -> Option<&GpuBuffer> {
+        self.cache_emission.as_ref()
     }
 
     pub fn grid_cells(&self) -> u32 {

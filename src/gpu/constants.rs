@@ -1,5 +1,6 @@
 //! The constants that Rust and WGSL share; a shader gets them by `#import constants`.
 
+use crate::data::light::EMISSION_MAX;
 use crate::data::octree::{ALBEDO_NODE_SCALE, FRACTION_BITS, FULL_WEIGHT, MAX_FRAGMENTS, NO_BLOCK};
 use crate::data::packing::NORMAL_MAX;
 use crate::data::pages::WORK_HINT_THREADS;
@@ -7,27 +8,35 @@ use crate::data::voxel_cache::TILE_CELLS;
 use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
 use crate::stages::fill::number_objects::OBJECT_MASK;
-use crate::stages::view;
+use crate::stages::{light, mesh, sample, view};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
     ("ALBEDO_NODE_SCALE", ALBEDO_NODE_SCALE),
-    ("ALPHA_BLEND", view::mesh::ALPHA_BLEND),
-    ("ALPHA_MASK", view::mesh::ALPHA_MASK),
+    ("ALPHA_BLEND", mesh::ALPHA_BLEND),
+    ("ALPHA_MASK", mesh::ALPHA_MASK),
+    ("COLOR_DARK", view::COLOR_DARK),
     ("COLOR_LEVEL", view::COLOR_LEVEL),
     ("COLOR_NORMAL", view::COLOR_NORMAL),
     ("COLOR_OBJECT", view::COLOR_OBJECT),
     ("COLOR_OCCUPANCY", view::COLOR_OCCUPANCY),
     ("COUNTER_CLIPPED", COUNTER_CLIPPED),
     ("COUNTER_OCCUPIED", COUNTER_OCCUPIED),
+    ("EMISSION_MAX", EMISSION_MAX),
+    ("FILTER_QUADRILINEAR", sample::FILTER_QUADRILINEAR),
+    ("FILTER_TRILINEAR", sample::FILTER_TRILINEAR),
     ("FRACTION_BITS", FRACTION_BITS),
     ("FRACTION_ONE", 1 << FRACTION_BITS),
     ("FULL_WEIGHT", FULL_WEIGHT),
+    ("LIGHT_DIRECTIONAL", light::LIGHT_DIRECTIONAL),
+    ("LIGHT_SPOT", light::LIGHT_SPOT),
     ("MAX_FRAGMENTS", MAX_FRAGMENTS),
     ("NORMAL_MAX", NORMAL_MAX as u32),
     ("NO_BLOCK", NO_BLOCK),
     ("OBJECT_MASK", OBJECT_MASK),
     ("SCAN_CHUNK", SCAN_CHUNK),
+    ("SHADOWS_MAP", light::SHADOWS_MAP),
+    ("SHADOWS_OFF", light::SHADOWS_OFF),
     ("TILE_CELLS", TILE_CELLS as u32),
     ("VIEW_EDGES", view::VIEW_EDGES),
     ("VIEW_LENGTH_RULE", view::VIEW_LENGTH_RULE),
@@ -41,8 +50,11 @@ pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
     ("EDGE_FROM_PX", view::EDGE_FROM_PX),
     ("EDGE_FULL_PX", view::EDGE_FULL_PX),
     ("EDGE_SHADE", view::EDGE_SHADE),
+    ("INVERSE_PI", std::f64::consts::FRAC_1_PI),
+    ("LEAST_DISTANCE_CELLS", light::LEAST_DISTANCE_CELLS),
     ("LEAST_LIGHT", view::LEAST_LIGHT),
     ("SHORT_NORMAL", view::SHORT_NORMAL),
+    ("SPREAD_COSINE", light::SPREAD_COSINE),
 ];
 
 /// One `const NAME: u32 = …;` or `const NAME: f32 = …;` a line.

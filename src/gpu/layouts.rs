@@ -10,9 +10,15 @@ use crate::data::octree::{OctreeLevel, OctreeParams};
 use crate::data::pages::WorkItem;
 use crate::stages::build::LevelParams;
 use crate::stages::build::scan::ScanParams;
+use crate::stages::light::illuminate::LightParams;
+use crate::stages::light::inject::InjectParams;
+use crate::stages::light::shadow::{ShadowFrame, ShadowParams};
+use crate::stages::mesh::{DrawParams, MeshVertex, VertexJoints};
+use crate::stages::sample::sample_points::PointParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
-use crate::stages::view::mesh::{DrawParams, MeshParams};
-use crate::stages::view::mesh_scene::{MeshVertex, VertexJoints};
+use crate::stages::view::march_light::ExposureParams;
+use crate::stages::view::mesh::MeshParams;
+use crate::stages::view::show_shadow::ShowShadowParams;
 use crate::stages::view::{GhostColors, Palette, ViewParams};
 
 /// Both sides of a layout, as Rust sees it.
@@ -44,7 +50,7 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part, object),
     mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
     mirror!(Matrix3x4, "shared/move_voxel.wgsl", "Matrix3x4", rows),
-    mirror!(Part, "shared/move_voxel.wgsl", "Part", origin, first_matrix, joints_skew, object, pad),
+    mirror!(Part, "shared/part.wgsl", "Part", origin, first_matrix, joints_skew, object, emission_skew, pad),
     mirror!(OctreeLevel, "shared/octree.wgsl", "OctreeLevel", occupied_word, blocks_word, first_block, first_node),
     mirror!(
         OctreeParams,
@@ -63,8 +69,29 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(LevelParams, "build/reduce.wgsl", "ReduceParams", level),
     mirror!(LevelParams, "build/emit.wgsl", "EmitParams", level),
     mirror!(LevelParams, "averaging/average.wgsl", "AverageParams", level),
+    mirror!(LevelParams, "light/average_light.wgsl", "AverageLightParams", level),
+    mirror!(ShowShadowParams, "view/show_shadow.wgsl", "ShowShadowParams", least, most, layers, map_px),
+    mirror!(InjectParams, "light/inject.wgsl", "InjectParams", emission_nits),
+    mirror!(ExposureParams, "view/march_light.wgsl", "ExposureParams", factor),
+    mirror!(ShadowFrame, "shared/shadow_frame.wgsl", "ShadowFrame", clip_from_grid, distance),
+    mirror!(ShadowParams, "shared/shadow_map.wgsl", "ShadowParams", frames, count, size_px, pad),
+    mirror!(
+        LightParams,
+        "light/illuminate.wgsl",
+        "LightParams",
+        position,
+        kind,
+        direction,
+        range_cells,
+        strength,
+        offset_cells,
+        angle_scale,
+        angle_offset,
+        pad,
+    ),
     mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
     mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(PointParams, "sample/sample_points.wgsl", "PointParams", direction, pad),
     mirror!(
         ViewParams,
         "shared/view.wgsl",
@@ -87,12 +114,12 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(Palette, "shared/view.wgsl", "Palette", colors),
     mirror!(GhostColors, "view/ghost.wgsl", "GhostColors", both, holes, spill),
     mirror!(MeshParams, "view/mesh.wgsl", "MeshParams", clip_from_camera, world_from_camera),
-    mirror!(MeshVertex, "view/mesh.wgsl", "MeshVertex", position, normal, tex_coord, color, pad),
-    mirror!(VertexJoints, "view/mesh.wgsl", "VertexJoints", joints, weights),
-    mirror!(Matrix3x4, "view/mesh.wgsl", "CameraMatrix", rows),
+    mirror!(MeshVertex, "shared/posed_mesh.wgsl", "MeshVertex", position, normal, tex_coord, color, pad),
+    mirror!(VertexJoints, "shared/posed_mesh.wgsl", "VertexJoints", joints, weights),
+    mirror!(Matrix3x4, "shared/posed_mesh.wgsl", "MeshMatrix", rows),
     mirror!(
         DrawParams,
-        "view/mesh.wgsl",
+        "shared/posed_mesh.wgsl",
         "DrawParams",
         base_color,
         first_index,

@@ -80,5 +80,6 @@ impl Gpu {
 fn level_bytes(descriptor: &wgpu::TextureDescriptor<'_>, level: u32) -> u64 {
     let side = |texels: u32| u64::from((texels >> level).max(1));
     let texel_bytes = u64::from(descriptor.format.block_copy_size(None).unwrap_or(4));
-    side(descriptor.size.width) * side(descriptor.size.height) * texel_bytes
+    let layers = u64::from(descriptor.size.depth_or_array_layers);
+    side(descriptor.size.width) * side(descriptor.size.height) * layers * texel_bytes
 }

@@ -3,6 +3,7 @@
 //! an earlier preparation or a disk cache holds are not made again.
 
 mod caches;
+mod emission;
 mod exact;
 mod fold;
 mod framing;
@@ -41,6 +42,8 @@ pub struct Prepared {
     pub origins: CacheOrigins,
     /// Every tile of every object, rigid ones first, then skinned: the unit of Object I-O.
     pub parts: Vec<PreparedPart>,
+    /// Largest channel of any voxel's emission, nits; 0 where nothing emits.
+    pub brightest_emission: f32,
     /// The scene's posed bounds over all its animation; `None` where there is nothing to see.
     pub bounds: Option<Aabb>,
     pub warnings: Vec<String>,
@@ -134,6 +137,8 @@ pub fn prepare_with(
     let (caches, origins) = work.run(wanted)?;
     warnings.extend(work.into_warning());
     let parts = list_parts(&objects, &caches);
+    let (brightest_emission, warning) = emission::brightest(&scene.name, &caches);
+    warnings.extend(warning);
     let voxelize_ms = started.elapsed().as_secs_f64() * 1e3;
     Ok(Prepared {
         scene,
@@ -144,6 +149,7 @@ pub fn prepare_with(
         caches,
         origins,
         parts,
+        brightest_emission,
         bounds,
         warnings,
         voxelize_ms,

@@ -178,6 +178,7 @@ pub fn shown(plain: &PlainOctree, look: &Look, level: u32, key: u32) -> Option<S
         ColorBy::Occupancy => linear(legend_value(color, mean.occupancy)),
         ColorBy::Level => linear(legend_value(color, f64::from(level) / f64::from(depth))),
         ColorBy::Object => linear(legend_object(plain.leaves[&key].object.into())),
+        ColorBy::Radiance | ColorBy::Irradiance => unreachable!("light has a kernel of its own"),
     };
     let shaded = look.shaded && !matches!(color, ColorBy::Normal | ColorBy::Occupancy);
     Some(Shown { occupancy: mean.occupancy, color: painted, normal: mean.normal, shaded })

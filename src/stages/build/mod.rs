@@ -1,9 +1,12 @@
 //! Builds the octree's nodes without locks (section 4.3, by another route than Algorithm 1):
-//! mark the leaves as bits, reduce two pyramids of masks, scan them, emit the nodes in key order.
+//! mark the leaves as bits, reduce two pyramids of masks, scan them, emit the nodes in key order, and
+//! link them to their forward neighbours (section 4.4).
 //! Sizes are known after the scan, before anything is stored.
 
 pub mod emit;
 pub mod emit_ref;
+pub mod link;
+pub mod link_ref;
 pub mod mark;
 pub mod mark_ref;
 pub mod reduce;

@@ -4,12 +4,16 @@
 pub mod count;
 pub mod count_ref;
 pub mod gather;
+pub mod gather_emission;
+pub mod gather_emission_ref;
 pub mod gather_heavy;
 pub mod gather_heavy_ref;
 pub mod gather_ref;
 pub mod number_objects;
 pub mod number_objects_ref;
 pub mod place;
+pub mod place_emission;
+pub mod place_emission_ref;
 pub mod place_ref;
 
 use crate::gpu::GpuBuffer;

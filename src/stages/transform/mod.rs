@@ -25,7 +25,7 @@ pub struct Matrix3x4 {
     pub rows: [[f32; 4]; 3],
 }
 
-/// A tile of an object's cache and what moves it. Mirror of `Part` in shaders/shared/move_voxel.wgsl.
+/// A tile of an object's cache and what moves it. Mirror of `Part` in shaders/shared/part.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Part {
@@ -33,7 +33,8 @@ pub struct Part {
     pub first_matrix: u32,
     pub joints_skew: u32,
     pub object: u32,
-    pub pad: [u32; 2],
+    pub emission_skew: u32,
+    pub pad: u32,
 }
 
 /// The buffers of a transformation. Rigid parts come first in the work list, then skinned ones.

@@ -6,12 +6,14 @@ pub mod camera;
 pub mod ghost;
 pub mod ghost_ref;
 pub mod march;
+pub mod march_light;
+pub mod march_light_ref;
 pub mod march_ref;
 pub mod mesh;
-pub mod mesh_scene;
-mod mesh_texture;
 pub mod palette;
 pub mod picture;
+pub mod show_shadow;
+pub mod show_shadow_ref;
 
 use bytemuck::{Pod, Zeroable};
 
@@ -30,6 +32,7 @@ pub const COLOR_NORMAL: u32 = 1;
 pub const COLOR_OCCUPANCY: u32 = 2;
 pub const COLOR_OBJECT: u32 = 3;
 pub const COLOR_LEVEL: u32 = 4;
+pub const COLOR_DARK: u32 = 5;
 
 /// A ray ends when less light than this comes through. No 8-bit value changes by one: at black,
 /// where gamma encoding is steepest, 255 · 12.92 / 4096 < 1.
@@ -109,8 +112,9 @@ pub fn shown_color(look: &Look, depth: u32) -> ColorBy {
 
 fn color_number(color: ColorBy) -> u32 {
     match color {
-        // Light has a kernel of its own; triangles have none.
-        ColorBy::Albedo | ColorBy::Radiance | ColorBy::Irradiance => COLOR_ALBEDO,
+        ColorBy::Albedo => COLOR_ALBEDO,
+        // Light has a kernel of its own: this one draws voxels only where there is none.
+        ColorBy::Radiance | ColorBy::Irradiance => COLOR_DARK,
         ColorBy::Normal => COLOR_NORMAL,
         ColorBy::Occupancy => COLOR_OCCUPANCY,
         ColorBy::Object => COLOR_OBJECT,

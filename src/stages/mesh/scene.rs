@@ -5,11 +5,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec4};
 
-use super::mesh_texture::{MeshTexture, TextureUploader};
-use crate::data::octree::Slot;
+use super::texture::{MeshTexture, TextureUploader};
+use super::{MeshVertex, VertexJoints};
 use crate::data::packing::{pack_normal, pack_rgba8};
 use crate::gpu::{Gpu, GpuBuffer, GpuError};
 use crate::scene::{Material, Motion, Object, Primitive, Scene, TextureRef};
@@ -17,25 +16,6 @@ use crate::settings::Hidden;
 
 /// Vertices of a batch, unless one primitive has more: 16 MiB, uploaded in one go.
 const BATCH_VERTICES: usize = 1 << 19;
-
-/// Mirror of `MeshVertex` in shaders/view/mesh.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct MeshVertex {
-    pub position: [f32; 3],
-    pub normal: u32,
-    pub tex_coord: [f32; 2],
-    pub color: u32,
-    pub pad: u32,
-}
-
-/// Mirror of `VertexJoints` in shaders/view/mesh.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct VertexJoints {
-    pub joints: [u32; 2],
-    pub weights: [f32; 4],
-}
 
 /// What draws of some primitives read.
 #[derive(Debug)]
@@ -55,7 +35,7 @@ pub(super) struct Place {
     pub index_count: u32,
 }
 
-/// A scene that is uploaded step by step, then drawn by [`super::mesh::record`].
+/// A scene that is uploaded step by step, then drawn as a [`super::PosedMesh`].
 #[derive(Debug)]
 pub struct MeshScene {
     pub(super) scene: Arc<Scene>,
@@ -67,7 +47,6 @@ pub struct MeshScene {
     /// By texture; `None` where no base colour reads it.
     pub(super) textures: Vec<Option<MeshTexture>>,
     pub(super) white: Option<MeshTexture>,
-    pub(super) matrices: Slot,
     /// What `waiting` was listed for; `None` before the first upload.
     hidden: Option<Hidden>,
     waiting: Vec<Waiting>,
@@ -96,7 +75,6 @@ impl MeshScene {
             objects,
             batches: Vec::new(),
             white: None,
-            matrices: Slot::default(),
             hidden: None,
             waiting: Vec::new(),
             uploader: None,

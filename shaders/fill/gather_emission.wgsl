@@ -1,0 +1,96 @@
+// Emission of the occupied leaves: the mean over the voxels that reach a leaf, by weight, from exact
+// integer sums. A thread a leaf block; blocks whose voxels all are dark leave their leaves as cleared.
+#import shared/threads.wgsl
+#import shared/block_sources.wgsl
+#import shared/wide.wgsl
+
+@group(0) @binding(0) var<uniform> octree: OctreeParams;
+@group(0) @binding(1) var<storage, read> blocks: array<u32>;
+@group(0) @binding(2) var<storage, read> ranks: array<u32>;
+@group(0) @binding(3) var<storage, read> block_keys: array<u32>;
+@group(0) @binding(4) var<storage, read> block_starts: array<u32>;
+@group(0) @binding(5) var<storage, read> sorted_voxels: array<vec4<u32>>;
+@group(0) @binding(6) var<storage, read> sorted_emission: array<vec2<u32>>;
+@group(0) @binding(7) var<storage, read> emitting_blocks: array<u32>;
+// Three numbers a leaf, 1 is the brightest voxel of the scene.
+@group(0) @binding(8) var<storage, read_write> leaf_emission: array<f32>;
+
+override WORKGROUP_SIZE: u32 = 64u;
+
+struct EmissionSum {
+    weight: vec2<u32>,
+    red: vec2<u32>,
+    green: vec2<u32>,
+    blue: vec2<u32>,
+}
+
+// 20 bits a channel.
+fn unpack_emission(packed: vec2<u32>) -> vec3<u32> {
+    return vec3<u32>(packed.x & EMISSION_MAX, (packed.x >> 20u) | ((packed.y & 0xffu) << 12u), (packed.y >> 8u) & EMISSION_MAX);
+}
+
+// sum + weight·value: 24 and 20 bits give 44, so 2^20 voxels fit.
+fn add_product(sum: vec2<u32>, weight: u32, value: u32) -> vec2<u32> {
+    let high = (weight >> 12u) * value;
+    let low = (weight & 0xfffu) * value;
+    return wide_add(wide_add(sum, vec2<u32>(high << 12u, high >> 20u)), vec2<u32>(low, 0u));
+}
+
+fn wide_to_float(a: vec2<u32>) -> f32 {
+    return f32(a.y) * 4294967296.0 + f32(a.x);
+}
+
+// What reaches leaf number `leaf` of the block from one range of sorted voxels.
+fn add_range(before: EmissionSum, range: vec2<u32>, leaf: u32, block_cell: vec3<i32>) -> EmissionSum {
+    let offset = (vec3<u32>(leaf) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
+    var sum = before;
+    for (var i = range.x; i < range.y; i += 1u) {
+        let w = block_weights(sorted_voxels[i].xy, block_cell);
+        let weight = w.x[offset.x] * w.y[offset.y] * w.z[offset.z];
+        if weight != 0u {
+            let emission = unpack_emission(sorted_emission[i]);
+            sum.weight = wide_add(sum.weight, vec2<u32>(weight, 0u));
+            sum.red = add_product(sum.red, weight, emission.x);
+            sum.green = add_product(sum.green, weight, emission.y);
+            sum.blue = add_product(sum.blue, weight, emission.z);
+        }
+    }
+    return sum;
+}
+
+// Whether a source of the block holds a voxel that emits.
+fn emits(block_cell: vec3<i32>) -> bool {
+    for (var source = 0u; source < source_count(); source += 1u) {
+        let block = source_block(block_cell, source);
+        if block != NO_BLOCK && emitting_blocks[block] != 0u {
+            return true;
+        }
+    }
+    return false;
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let block = thread_index(id, groups);
+    if block >= threads.end {
+        return;
+    }
+    let block_cell = vec3<i32>(morton_cell(block_keys[octree.levels[octree.depth - 1u].first_block + block]));
+    if !emits(block_cell) {
+        return;
+    }
+    var slot = block_starts[2u * block + 1u];
+    for (var leaf = 0u; leaf < 8u; leaf += 1u) {
+        var sum = EmissionSum(vec2<u32>(0u), vec2<u32>(0u), vec2<u32>(0u), vec2<u32>(0u));
+        for (var source = 0u; source < source_count(); source += 1u) {
+            sum = add_range(sum, source_range(block_cell, source), leaf, block_cell);
+        }
+        if any(sum.weight != vec2<u32>(0u)) {
+            let full = wide_to_float(sum.weight) * f32(EMISSION_MAX);
+            leaf_emission[3u * slot] = wide_to_float(sum.red) / full;
+            leaf_emission[3u * slot + 1u] = wide_to_float(sum.green) / full;
+            leaf_emission[3u * slot + 2u] = wide_to_float(sum.blue) / full;
+            slot += 1u;
+        }
+    }
+}

@@ -1,0 +1,46 @@
+// A shadow map: distances of the posed triangles from a light, in cells along the map's axis. In:
+// vertices by number, a matrix an object or joint (grid_from_mesh). Out: one layer. Entry points `rigid`
+// and `skinned` as for pictures; MASK casts by its cutoff, BLEND by a share of the texels.
+#import shared/posed_mesh.wgsl
+#import shared/shadow_frame.wgsl
+
+@group(0) @binding(0) var<uniform> frame: ShadowFrame;
+@group(0) @binding(1) var<uniform> draw: DrawParams;
+@group(0) @binding(2) var<storage, read> indices: array<u32>;
+@group(0) @binding(3) var<storage, read> vertices: array<MeshVertex>;
+@group(0) @binding(4) var<storage, read> vertex_joints: array<VertexJoints>;
+@group(0) @binding(5) var<storage, read> matrices: array<MeshMatrix>;
+@group(0) @binding(6) var base_color: texture_2d<f32>;
+@group(0) @binding(7) var base_color_sampler: sampler;
+
+struct Vertex {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) distance: f32,
+    @location(1) tex_coord: vec2<f32>,
+    @location(2) alpha: f32,
+}
+
+fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
+    let p = vec4<f32>(moved_position(v, m), 1.0);
+    return Vertex(frame.clip_from_grid * p, dot(frame.distance, p), v.tex_coord, unpack4x8unorm(v.color).a);
+}
+
+@vertex
+fn rigid(@builtin(vertex_index) number: u32) -> Vertex {
+    return placed(vertices[vertex_of(number)], matrices[draw.first_matrix]);
+}
+
+@vertex
+fn skinned(@builtin(vertex_index) number: u32) -> Vertex {
+    let vertex = vertex_of(number);
+    return placed(vertices[vertex], skinned_matrix(vertex));
+}
+
+@fragment
+fn fragment(v: Vertex) -> @location(0) vec4<f32> {
+    let alpha = draw.base_color.a * v.alpha * textureSample(base_color, base_color_sampler, v.tex_coord).a;
+    if !is_there(alpha, vec2<u32>(v.clip.xy)) {
+        discard;
+    }
+    return vec4<f32>(v.distance, 0.0, 0.0, 1.0);
+}

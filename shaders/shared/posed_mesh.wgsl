@@ -1,0 +1,91 @@
+// Posed triangles: vertices by number, the matrices that move them, and what of a surface is there. A
+// shader declares `draw`, `indices`, `vertices`, `vertex_joints` and `matrices`.
+#import constants
+
+struct MeshVertex {
+    position: vec3<f32>,
+    // Packed.
+    normal: u32,
+    tex_coord: vec2<f32>,
+    // Linear, 8 bits each.
+    color: u32,
+    pad: u32,
+}
+
+struct VertexJoints {
+    // 16 bits each.
+    joints: vec2<u32>,
+    weights: array<f32, 4>,
+}
+
+// From mesh to the space that the picture is taken in, cells, row by row.
+struct MeshMatrix {
+    rows: array<vec4<f32>, 3>,
+}
+
+struct DrawParams {
+    base_color: vec4<f32>,
+    first_index: u32,
+    first_vertex: u32,
+    first_matrix: u32,
+    object: u32,
+    // ALPHA_*.
+    alpha_mode: u32,
+    // Less alpha than this is not there, under ALPHA_MASK.
+    cutoff: f32,
+    unlit: u32,
+    pad: u32,
+}
+
+// sign(det)·cofactor: right for any scale, mirrored or not.
+fn moved_normal(n: vec3<f32>, m: MeshMatrix) -> vec3<f32> {
+    let c0 = cross(m.rows[1].xyz, m.rows[2].xyz);
+    let c1 = cross(m.rows[2].xyz, m.rows[0].xyz);
+    let c2 = cross(m.rows[0].xyz, m.rows[1].xyz);
+    let moved = vec3<f32>(dot(c0, n), dot(c1, n), dot(c2, n));
+    return select(moved, -moved, dot(m.rows[0].xyz, c0) < 0.0);
+}
+
+fn moved_position(v: MeshVertex, m: MeshMatrix) -> vec3<f32> {
+    let p = vec4<f32>(v.position, 1.0);
+    return vec3<f32>(dot(m.rows[0], p), dot(m.rows[1], p), dot(m.rows[2], p));
+}
+
+// Which vertex corner `number` of the drawn triangles is.
+fn vertex_of(number: u32) -> u32 {
+    return draw.first_vertex + indices[draw.first_index + number];
+}
+
+// The matrices of up to four joints, blended by weight.
+fn skinned_matrix(vertex: u32) -> MeshMatrix {
+    let bound = vertex_joints[vertex];
+    let joints = vec4<u32>(bound.joints.x & 0xffffu, bound.joints.x >> 16u, bound.joints.y & 0xffffu, bound.joints.y >> 16u);
+    var sum = array<vec4<f32>, 3>();
+    var total = 0.0;
+    for (var i = 0u; i < 4u; i += 1u) {
+        let weight = bound.weights[i];
+        // A joint without weight is not even read: its matrix may be anything.
+        if weight > 0.0 {
+            let m = matrices[draw.first_matrix + joints[i]];
+            sum = array(sum[0] + weight * m.rows[0], sum[1] + weight * m.rows[1], sum[2] + weight * m.rows[2]);
+            total += weight;
+        }
+    }
+    return MeshMatrix(array(sum[0] / total, sum[1] / total, sum[2] / total));
+}
+
+// 0 … 1 in an order that spreads: a share of pixels stands for a share of coverage.
+fn threshold(pixel: vec2<u32>) -> f32 {
+    let x = pixel.x ^ pixel.y;
+    let order = ((x & 1u) << 3u) | ((pixel.y & 1u) << 2u) | ((x & 2u)) | ((pixel.y & 2u) >> 1u);
+    return (f32(order) + 0.5) / 16.0;
+}
+
+// Transparency without an order: MASK by its cutoff, BLEND by a share of the pixels.
+fn is_there(alpha: f32, pixel: vec2<u32>) -> bool {
+    switch draw.alpha_mode {
+        case ALPHA_MASK: { return alpha >= draw.cutoff; }
+        case ALPHA_BLEND: { return alpha > threshold(pixel); }
+        default: { return true; }
+    }
+}

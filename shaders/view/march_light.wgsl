@@ -1,0 +1,46 @@
+// Shows the light that the octree holds, radiance or irradiance: as `march`, coloured by a node's mean
+// light times the exposure. In: the octree's masks, `light`, a view.
+#import shared/threads.wgsl
+#import shared/occupied_nodes.wgsl
+#import shared/leaf_slot.wgsl
+#import shared/march.wgsl
+
+struct ExposureParams {
+    // Shown = light · factor.
+    factor: f32,
+}
+
+@group(0) @binding(0) var<uniform> octree: OctreeParams;
+@group(0) @binding(1) var<uniform> view: ViewParams;
+@group(0) @binding(2) var<uniform> exposure: ExposureParams;
+@group(0) @binding(3) var<storage, read> leaf_bits: array<u32>;
+@group(0) @binding(4) var<storage, read> occupied: array<u32>;
+@group(0) @binding(5) var<storage, read> blocks: array<u32>;
+@group(0) @binding(6) var<storage, read> ranks: array<u32>;
+@group(0) @binding(7) var<storage, read> block_starts: array<u32>;
+@group(0) @binding(8) var<storage, read> light: array<vec4<f32>>;
+@group(0) @binding(9) var picture: texture_storage_2d<rgba8unorm, write>;
+@group(0) @binding(10) var depth: texture_storage_2d<r32float, write>;
+
+override WORKGROUP_SIZE: u32 = 64u;
+
+// Where the light of an occupied node of the shown level lies.
+fn light_index(key: u32) -> u32 {
+    if view.level < octree.depth {
+        return node_index(view.level, key);
+    }
+    return octree.inner_node_count + leaf_slot(key);
+}
+
+fn seen(key: u32, ray: Ray, walk: Walk) -> vec4<f32> {
+    let stored = light[light_index(key)];
+    return vec4<f32>(stored.xyz / stored.w * exposure.factor, stored.w);
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let thread = thread_index(id, groups);
+    if thread < threads.end {
+        show(thread);
+    }
+}

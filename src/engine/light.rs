@@ -1,0 +1,264 @@
+//! What lights the shown octree: shadow maps, irradiance, and the store that views and cones sample.
+
+use std::sync::Arc;
+
+use super::steps::Stored;
+use super::{Engine, EngineError, Wanted, missing};
+use crate::color::luminance;
+use crate::data::light::{IRRADIANCE_BYTES, LightBuffers, light_bytes};
+use crate::data::octree::Slot;
+use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
+use crate::lights::PosedLight;
+use crate::prepare::Prepared;
+use crate::scene::{Aabb, Pose};
+use crate::settings::lighting::{Lighting, Shadows};
+use crate::settings::{Hidden, MotionSettings};
+use crate::stages::fill::gather_emission;
+use crate::stages::fill::place_emission::{self, Emission};
+use crate::stages::light::illuminate::{self, LightParams};
+use crate::stages::light::inject::{self, Injected};
+use crate::stages::light::shadow::{ShadowMap, ShadowParams};
+use crate::stages::light::{LitOctree, average_light};
+use crate::stages::mesh::PosedMesh;
+
+/// Texels that all shadow maps have together at most: 256 MiB. More lights get smaller maps.
+const MAX_SHADOW_TEXELS: u64 = 1 << 26;
+
+/// The light of the shown octree.
+#[derive(Debug, Default)]
+pub struct LightOnGpu {
+    pub buffers: LightBuffers,
+    /// One a light.
+    pub maps: Vec<ShadowMap>,
+    matrices: Slot,
+    /// Hides nothing.
+    no_map: Option<ShadowMap>,
+    /// Light times opacity, and opacity, of the whole scene.
+    pub radiance_root: [f32; 4],
+    pub irradiance_root: [f32; 4],
+}
+
+impl LightOnGpu {
+    pub fn stored(&self, stored: Stored) -> &Slot {
+        match stored {
+            Stored::Radiance => &self.buffers.light,
+            Stored::Irradiance => &self.buffers.shown,
+        }
+    }
+
+    pub fn set_root(&mut self, stored: Stored, root: [f32; 4]) {
+        match stored {
+            Stored::Radiance => self.radiance_root = root,
+            Stored::Irradiance => self.irradiance_root = root,
+        }
+    }
+
+    /// Luminance of the scene's mean light; 0 where there is none.
+    pub fn mean(&self, stored: Stored) -> f64 {
+        let [r, g, b, opacity] = match stored {
+            Stored::Radiance => self.radiance_root,
+            Stored::Irradiance => self.irradiance_root,
+        };
+        if opacity > 0.0 { luminance([r, g, b].map(f64::from)) / f64::from(opacity) } else { 0.0 }
+    }
+}
+
+/// What the stored light was computed from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LitBy {
+    pub lights: Vec<PosedLight>,
+    pub lighting: Lighting,
+}
+
+/// What the shadow maps were drawn from.
+#[derive(Clone, Debug)]
+pub struct ShadowedBy {
+    pub params: Vec<ShadowParams>,
+    pub pose: Arc<Pose>,
+    pub hidden: Hidden,
+}
+
+impl ShadowedBy {
+    /// By bits: a matrix that is not finite is equal to itself.
+    pub fn is(&self, other: &Self) -> bool {
+        let bits = |pose: &Pose| -> Vec<[u64; 16]> {
+            pose.world_from_node.iter().map(|matrix| matrix.to_cols_array().map(f64::to_bits)).collect()
+        };
+        self.params == other.params && self.hidden == other.hidden && bits(&self.pose) == bits(&other.pose)
+    }
+}
+
+/// One layout a light, all together within [`MAX_SHADOW_TEXELS`].
+pub fn shadow_params(prepared: &Prepared, wanted: &Wanted) -> Vec<ShadowParams> {
+    let bounds = prepared.bounds.map(|bounds| turned(bounds, &wanted.settings.motion));
+    let sized = |size_px: u32| -> Vec<ShadowParams> {
+        wanted.lights.iter().map(|light| ShadowParams::new(light, &prepared.grid, bounds, size_px)).collect()
+    };
+    let texels = |params: &[ShadowParams]| -> u64 {
+        params.iter().map(|map| u64::from(map.count) * u64::from(map.size_px).pow(2)).sum()
+    };
+    let mut size_px = wanted.settings.lighting.shadow_map_px;
+    let mut params = sized(size_px);
+    while size_px > 1 && texels(&params) > MAX_SHADOW_TEXELS {
+        size_px /= 2;
+        params = sized(size_px);
+    }
+    params
+}
+
+/// Bounds of what turns about its centre, however it is turned.
+fn turned(bounds: Aabb, motion: &MotionSettings) -> Aabb {
+    if motion.turn_degrees == [0.0; 3] {
+        return bounds;
+    }
+    let half = glam::DVec3::splat((bounds.max - bounds.min).length() / 2.0);
+    Aabb { min: bounds.center() - half, max: bounds.center() + half }
+}
+
+impl Engine {
+    pub(super) fn shadowed_by(&self, wanted: &Wanted) -> Option<ShadowedBy> {
+        let params = shadow_params(self.prepared.as_ref()?, wanted);
+        Some(ShadowedBy { params, pose: Arc::clone(&wanted.pose), hidden: wanted.hidden.clone() })
+    }
+
+    pub(super) fn shadows_changed(&self, wanted: &Wanted) -> bool {
+        match (&self.done.shadows, self.shadowed_by(wanted)) {
+            (Some(done), Some(wanted)) => !done.is(&wanted),
+            _ => true,
+        }
+    }
+
+    pub(super) fn lit_octree(&self) -> Result<LitOctree, GpuError> {
+        LitOctree::new(&self.shown.params, &self.shown.buffers)
+    }
+
+    pub(super) fn record_emission(&mut self) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let voxels = self.voxels()?;
+        let gpu = Arc::clone(&self.gpu);
+        let scene = self.scene.as_ref().ok_or(EngineError::NoScene)?;
+        let cache_emission = scene.cache_emission().ok_or_else(|| missing("cache emission"))?.clone();
+        let fill = self.shown.filled(&gpu, &voxels)?;
+        let octree = self.shown.params;
+        let emission = Emission::new(&gpu, &mut self.light.buffers, &octree, (cache_emission, voxels.threads()))?;
+        place_emission::record(&gpu, &mut frame, &voxels, &fill, &emission);
+        gather_emission::record(&gpu, &mut frame, &octree, self.shown.filter, &fill, &emission);
+        Ok(frame)
+    }
+
+    /// A map of every light, kept until a light or an object moves.
+    pub(super) fn record_shadows(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let prepared = self.prepared.clone().ok_or(EngineError::NoScene)?;
+        let mesh = self.mesh.as_ref().ok_or_else(|| missing("mesh vertices"))?;
+        let params = shadow_params(&prepared, wanted);
+        let of_pose = (&*wanted.pose, &wanted.hidden);
+        let to_grid = prepared.grid.grid_from_world();
+        let posed = PosedMesh::new(&self.gpu, mesh, &mut self.light.matrices, of_pose, &to_grid)?;
+        let kept = self.light.maps.iter().map(|map| (map.params.count, map.params.size_px));
+        if !kept.eq(params.iter().map(|params| (params.count, params.size_px))) {
+            // The old ones go first: both at once might not fit.
+            self.light.maps.clear();
+            for params in &params {
+                self.light.maps.push(ShadowMap::new(&self.gpu, *params)?);
+            }
+        }
+        for (map, params) in self.light.maps.iter_mut().zip(params) {
+            map.params = params;
+            map.record(&self.gpu, &mut frame, &posed);
+        }
+        Ok(frame)
+    }
+
+    /// Direct irradiance: what every light adds to every leaf.
+    pub(super) fn record_illuminate(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        self.done.light = None;
+        let mut frame = Recorder::default();
+        let octree = self.lit_octree()?;
+        let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
+        let lighting = &wanted.settings.lighting;
+        let bytes = IRRADIANCE_BYTES * u64::from(octree.params.leaf_count);
+        let gpu = &self.gpu;
+        let direct = self.light.buffers.direct.ensure(gpu, "direct irradiance", bytes)?;
+        frame.clear(&direct);
+        let no_map = no_map(gpu, &mut self.light.no_map)?;
+        for (number, light) in wanted.lights.iter().enumerate() {
+            let is_mapped = lighting.shadows == Shadows::Map;
+            let map = self.light.maps.get(number).filter(|_| is_mapped).unwrap_or(&no_map);
+            let light = LightParams::new(light, &grid, lighting.shadow_offset_voxels);
+            illuminate::record(gpu, &mut frame, &octree, &direct, &light, (lighting.shadows, map));
+        }
+        Ok(frame)
+    }
+
+    /// What leaves the leaves, and its average; with what bounces gathered where there is a bounce.
+    pub(super) fn record_inject(&mut self, wanted: &Wanted, bounced: bool) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let octree = self.lit_octree()?;
+        let opacity = wanted.settings.lighting.opacity;
+        let light = self.light.buffers.light.ensure(&self.gpu, "light", light_bytes(&octree.params, opacity))?;
+        let from = self.injected(wanted, bounced)?;
+        inject::record(&self.gpu, &mut frame, &octree, from.as_ref(), &light);
+        average_light::record(&self.gpu, &mut frame, &octree, opacity, &light);
+        Ok(frame)
+    }
+
+    /// Irradiance in the same layout, for the view of it.
+    pub(super) fn record_irradiance(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let octree = self.lit_octree()?;
+        let opacity = wanted.settings.lighting.opacity;
+        let shown =
+            self.light.buffers.shown.ensure(&self.gpu, "shown irradiance", light_bytes(&octree.params, opacity))?;
+        let from = self.injected(wanted, wanted.settings.lighting.bounces > 0)?;
+        inject::record_irradiance(&self.gpu, &mut frame, &octree, from.as_ref(), &shown);
+        average_light::record(&self.gpu, &mut frame, &octree, opacity, &shown);
+        Ok(frame)
+    }
+
+    pub(super) fn record_sky(&mut self, _wanted: &Wanted) -> Result<Recorder, EngineError> {
+        Ok(Recorder::default())
+    }
+
+    pub(super) fn record_bounce(&mut self, _wanted: &Wanted) -> Result<Recorder, EngineError> {
+        Ok(Recorder::default())
+    }
+
+    fn injected(&self, wanted: &Wanted, bounced: bool) -> Result<InjectedBuffers, EngineError> {
+        let b = &self.light.buffers;
+        let emission_nits = self.emission_nits(wanted)?;
+        let emits = emission_nits > 0.0 && wanted.facts.emissive_voxels > 0;
+        Ok(InjectedBuffers {
+            direct: b.direct.made("direct irradiance")?,
+            gathered: if bounced { Some(b.gathered.made("gathered irradiance")?) } else { None },
+            emission: if emits { Some((b.leaf_emission.made("leaf emission")?, emission_nits)) } else { None },
+        })
+    }
+
+    /// What a leaf emission of 1 stands for.
+    fn emission_nits(&self, wanted: &Wanted) -> Result<f32, EngineError> {
+        let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
+        Ok(prepared.brightest_emission * wanted.settings.lighting.emission as f32)
+    }
+}
+
+/// What [`Injected`] borrows.
+struct InjectedBuffers {
+    direct: GpuBuffer,
+    gathered: Option<GpuBuffer>,
+    emission: Option<(GpuBuffer, f32)>,
+}
+
+impl InjectedBuffers {
+    fn as_ref(&self) -> Injected<'_> {
+        let emission = self.emission.as_ref().map(|(buffer, nits)| (buffer, *nits));
+        Injected { direct: &self.direct, gathered: self.gathered.as_ref(), emission }
+    }
+}
+
+fn no_map(gpu: &Gpu, kept: &mut Option<ShadowMap>) -> Result<ShadowMap, GpuError> {
+    match kept {
+        Some(map) => Ok(map.clone()),
+        None => Ok(kept.insert(ShadowMap::new(gpu, ShadowParams::default())?).clone()),
+    }
+}

@@ -1,0 +1,65 @@
+//! Lights the octree (sections 4.3 and 4.4): each light's irradiance on every occupied leaf, what leaves
+//! the leaf, and its average up to the root. Sky and bounces gather by cones.
+//!
+//! ```text
+//! lights ─► shadow (a map a light) ─► illuminate (direct irradiance) ─► inject ─► average_light
+//!                                      gather (sky, bounces) ─────────────▲  │
+//!                                        ▲───────────────────────────────────┘
+//! ```
+
+pub mod average_light;
+pub mod average_light_ref;
+pub mod illuminate;
+pub mod illuminate_ref;
+pub mod inject;
+pub mod inject_ref;
+pub mod shadow;
+
+use crate::data::octree::{OctreeBuffers, OctreeParams};
+use crate::gpu::{GpuBuffer, GpuError};
+
+pub const LIGHT_DIRECTIONAL: u32 = 0;
+pub const LIGHT_POINT: u32 = 1;
+pub const LIGHT_SPOT: u32 = 2;
+
+pub const SHADOWS_OFF: u32 = 0;
+pub const SHADOWS_MAP: u32 = 1;
+pub const SHADOWS_MARCH: u32 = 2;
+
+/// A leaf is a cell wide: no light is nearer to it than half of that.
+pub const LEAST_DISTANCE_CELLS: f64 = 0.5;
+/// Mean of max(cosine, 0) over all directions.
+pub const SPREAD_COSINE: f64 = 0.25;
+
+/// What lighting reads of a built octree.
+#[derive(Clone, Debug)]
+pub struct LitOctree {
+    pub params: OctreeParams,
+    pub leaf_bits: GpuBuffer,
+    pub occupied: GpuBuffer,
+    pub blocks: GpuBuffer,
+    pub ranks: GpuBuffer,
+    pub block_keys: GpuBuffer,
+    pub block_starts: GpuBuffer,
+    pub first_child: GpuBuffer,
+    pub leaves: GpuBuffer,
+    pub nodes: GpuBuffer,
+}
+
+impl LitOctree {
+    /// Fails until all of it was built.
+    pub fn new(params: &OctreeParams, buffers: &OctreeBuffers) -> Result<Self, GpuError> {
+        Ok(Self {
+            params: *params,
+            leaf_bits: buffers.leaf_bits.made("leaf bits")?,
+            occupied: buffers.occupied.made("occupied masks")?,
+            blocks: buffers.blocks.made("block masks")?,
+            ranks: buffers.ranks.made("block ranks")?,
+            block_keys: buffers.block_keys.made("block keys")?,
+            block_starts: buffers.block_starts.made("block starts")?,
+            first_child: buffers.first_child.made("child pointers")?,
+            leaves: buffers.leaves.made("leaves")?,
+            nodes: buffers.nodes.made("nodes")?,
+        })
+    }
+}

@@ -1,0 +1,106 @@
+//! Asks the lit octree for radiance and opacity anywhere (section 4.4): nearest node, trilinear in a
+//! level, or quadrilinear at a width, the nodes found by rank look-up or by pointers as in the paper.
+//!
+//! In: an octree and its `light`, 4 f32 an inner node, then 4 an occupied leaf: mean radiance · opacity,
+//! and opacity; under directional opacity 4 more an inner node: opacity across it along x, y and z.
+//! Out: (radiance · α, α), α being opacity per leaf cell of length. All look-ups give the same bits.
+
+pub mod sample_points;
+pub mod sample_points_ref;
+
+use crate::data::octree::{OctreeBuffers, OctreeParams, PointerLayout};
+use crate::gpu::{GpuBuffer, GpuError, Kernel, PassBuilder};
+use crate::settings::{Lookup, Sampling};
+
+pub const FILTER_NEAREST: u32 = 0;
+pub const FILTER_TRILINEAR: u32 = 1;
+pub const FILTER_QUADRILINEAR: u32 = 2;
+
+/// The pointers that a look-up follows, which the octree must then hold.
+pub fn pointer_layout(lookup: Lookup) -> Option<PointerLayout> {
+    match lookup {
+        Lookup::Ranks => None,
+        Lookup::BlockPointers => Some(PointerLayout::Blocks),
+        Lookup::NodePointers => Some(PointerLayout::Nodes),
+    }
+}
+
+/// Which sampler is compiled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Sampler {
+    pub sampling: Sampling,
+    pub lookup: Lookup,
+    /// Opacity along the direction of sight instead of the mean one; `light` must hold it.
+    pub directional: bool,
+}
+
+impl Sampler {
+    /// Overrides of shaders/shared/look_up.wgsl.
+    pub fn constants(&self) -> [(&'static str, f64); 4] {
+        let filter = match self.sampling {
+            Sampling::Nearest => FILTER_NEAREST,
+            Sampling::Trilinear => FILTER_TRILINEAR,
+            Sampling::Quadrilinear => FILTER_QUADRILINEAR,
+        };
+        let flag = |on: bool| f64::from(u8::from(on));
+        [
+            ("FILTER", filter.into()),
+            ("LINKED", flag(self.lookup != Lookup::Ranks)),
+            ("NODE_POINTERS", flag(self.lookup == Lookup::NodePointers)),
+            ("DIRECTIONAL", flag(self.directional)),
+        ]
+    }
+}
+
+/// What a sampler with any look-up reads.
+#[derive(Clone, Debug)]
+pub struct SampledOctree {
+    pub params: OctreeParams,
+    pub blocks: GpuBuffer,
+    pub ranks: GpuBuffer,
+    pub first_child: GpuBuffer,
+    /// Under rank look-up any buffer: nothing of it is read.
+    pub neighbours: GpuBuffer,
+    pub leaf_bits: GpuBuffer,
+    pub block_starts: GpuBuffer,
+    pub light: GpuBuffer,
+}
+
+impl SampledOctree {
+    /// The error names what was not made: the octree, or the pointers of this look-up.
+    pub fn new(
+        params: &OctreeParams,
+        buffers: &OctreeBuffers,
+        light: &GpuBuffer,
+        lookup: Lookup,
+    ) -> Result<Self, GpuError> {
+        let ranks = buffers.ranks.made("block ranks")?;
+        let neighbours = match pointer_layout(lookup) {
+            None => ranks.clone(),
+            Some(PointerLayout::Blocks) => buffers.neighbours.made("neighbour pointers")?,
+            Some(PointerLayout::Nodes) => buffers.node_neighbours.made("neighbour pointers of nodes")?,
+        };
+        Ok(Self {
+            params: *params,
+            blocks: buffers.blocks.made("block masks")?,
+            ranks,
+            first_child: buffers.first_child.made("child pointers")?,
+            neighbours,
+            leaf_bits: buffers.leaf_bits.made("leaf bits")?,
+            block_starts: buffers.block_starts.made("block starts")?,
+            light: light.clone(),
+        })
+    }
+
+    /// Binds all of it by the names in shaders/shared/look_up.wgsl.
+    pub fn bind<'a>(&self, pass: PassBuilder<'a, Kernel>) -> PassBuilder<'a, Kernel> {
+        pass.uniform("octree", &self.params)
+            .bind("blocks", &self.blocks)
+            .bind("ranks", &self.ranks)
+            .bind("first_child", &self.first_child)
+            .bind("neighbours", &self.neighbours)
+            .bind("leaf_bits", &self.leaf_bits)
+            .bind("block_starts", &self.block_starts)
+            .bind("light", &self.light)
+    }
+}

@@ -1,0 +1,113 @@
+//! Reference of sampling (section 4.4) over a map of nodes, in f64, from the paper's words: a point is
+//! rounded down to a node location, eight nodes are interpolated, and two such results of neighbouring
+//! levels are interpolated again.
+//!
+//! In: nodes by level and coordinates; none outside the grid, none where nothing is. Out: a
+//! [`Sampled`]. Positions in leaf cells from the grid's corner.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec3, IVec3};
+
+/// What a node holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LitNode {
+    /// Mean radiance · opacity.
+    pub radiance: DVec3,
+    /// Occupied share of the volume, opacity per cell of length.
+    pub opacity: f64,
+    /// Opacity of the whole node along x, y, z; `None` under isotropic opacity.
+    pub across: Option<DVec3>,
+}
+
+/// Radiance · α, and α: opacity per cell of length.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sampled {
+    pub radiance: DVec3,
+    pub alpha: f64,
+}
+
+impl Sampled {
+    fn plus(self, weight: f64, other: Self) -> Self {
+        Self { radiance: self.radiance + weight * other.radiance, alpha: self.alpha + weight * other.alpha }
+    }
+}
+
+/// A lit octree; level `depth` is the leaves.
+#[derive(Clone, Debug, Default)]
+pub struct LitNodes {
+    pub depth: u32,
+    pub nodes: BTreeMap<(u32, [i32; 3]), LitNode>,
+}
+
+impl LitNodes {
+    fn width_cells(&self, level: u32) -> f64 {
+        f64::from(1_u32 << (self.depth - level))
+    }
+
+    fn seen(&self, level: u32, node: IVec3, direction: DVec3) -> Sampled {
+        let Some(node) = self.nodes.get(&(level, node.to_array())) else { return Sampled::default() };
+        if node.opacity == 0.0 {
+            return Sampled::default();
+        }
+        let alpha = match node.across {
+            None => node.opacity,
+            Some(across) => {
+                let whole = (direction * direction).dot(across);
+                1.0 - (1.0 - whole).max(0.0).powf(1.0 / self.width_cells(level))
+            }
+        };
+        Sampled { radiance: node.radiance / node.opacity * alpha, alpha }
+    }
+
+    pub fn nearest(&self, level: u32, p: DVec3, direction: DVec3) -> Sampled {
+        self.seen(level, (p / self.width_cells(level)).floor().as_ivec3(), direction)
+    }
+
+    pub fn trilinear(&self, level: u32, p: DVec3, direction: DVec3) -> Sampled {
+        // Node centres lie at ½.
+        let lattice = p / self.width_cells(level) - 0.5;
+        let base = lattice.floor();
+        let f = lattice - base;
+        let corners = (0..8).map(|corner| IVec3::new(corner & 1, corner >> 1 & 1, corner >> 2));
+        corners.fold(Sampled::default(), |sum, offset| {
+            let weight = (0..3).map(|axis| if offset[axis] == 1 { f[axis] } else { 1.0 - f[axis] }).product();
+            sum.plus(weight, self.seen(level, base.as_ivec3() + offset, direction))
+        })
+    }
+
+    pub fn quadrilinear(&self, width_cells: f64, p: DVec3, direction: DVec3) -> Sampled {
+        let rise = width_cells.max(1.0).log2().min(self.depth.into());
+        let (fine, coarse) = (self.depth - rise.floor() as u32, self.depth - rise.ceil() as u32);
+        let blend = rise.fract();
+        Sampled::default()
+            .plus(1.0 - blend, self.trilinear(fine, p, direction))
+            .plus(blend, self.trilinear(coarse, p, direction))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_leaf_fades_to_its_neighbours_centres() {
+        let node = LitNode { radiance: DVec3::ONE, opacity: 0.5, across: None };
+        let lit = LitNodes { depth: 2, nodes: BTreeMap::from([((2, [1, 1, 1]), node)]) };
+        let at = |x: f64| lit.trilinear(2, DVec3::new(x, 1.5, 1.5), DVec3::X).alpha;
+        assert_eq!([0.5, 1.0, 1.5, 2.0, 2.5, 3.0].map(at), [0.0, 0.25, 0.5, 0.25, 0.0, 0.0]);
+        // Level 1 is empty, so a width of √2 halves it.
+        let width = std::f64::consts::SQRT_2;
+        assert!((lit.quadrilinear(width, DVec3::splat(1.5), DVec3::X).alpha - 0.25).abs() < 1e-15);
+    }
+
+    #[test]
+    fn directional_opacity_is_spread_over_the_nodes_width() {
+        let across = DVec3::new(0.75, 0.0, 1.0);
+        let node = LitNode { radiance: DVec3::splat(0.2), opacity: 0.1, across: Some(across) };
+        let lit = LitNodes { depth: 1, nodes: BTreeMap::from([((0, [0; 3]), node)]) };
+        let along = |direction: DVec3| lit.nearest(0, DVec3::ONE, direction);
+        assert_eq!([DVec3::X, DVec3::Y, DVec3::Z].map(|d| along(d).alpha), [0.5, 0.0, 1.0]);
+        assert_eq!(along(DVec3::Z).radiance, DVec3::splat(2.0));
+    }
+}

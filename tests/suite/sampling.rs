@@ -1,0 +1,261 @@
+//! Sampling the lit octree: against the f64 reference and closed forms; every look-up gives the same bits.
+
+use glam::{DVec3, Vec3};
+use octolume::settings::{Filter, Lookup, Sampling};
+use octolume::stages::fill::gather_ref::Fragment;
+use octolume::stages::sample::sample_points_ref::{LitNodes, Sampled};
+use octolume::stages::sample::{SampledOctree, Sampler};
+use proptest::prelude::RngExt;
+use proptest::test_runner::TestRng;
+
+use crate::device::{gpu, open};
+use crate::lit_octree::LitOctree;
+use crate::octree::aligned;
+use crate::octree_rules::Cell;
+use crate::random;
+use crate::stage_build::Shape;
+
+const DEPTH: u32 = 5;
+const CELLS: f32 = 32.0;
+const SAMPLINGS: [Sampling; 3] = [Sampling::Nearest, Sampling::Trilinear, Sampling::Quadrilinear];
+const LOOKUPS: [Lookup; 3] = [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers];
+
+/// Some bright, some dark, from the cell alone.
+fn colourful(cell: Cell, opacity: f64) -> (DVec3, f64) {
+    let part = |axis: usize, factor: u32| f64::from(cell[axis] * factor % 17) * 0.3;
+    (DVec3::new(part(0, 5), part(1, 3), part(2, 7)), opacity)
+}
+
+fn random_octree(seed: u64, count: usize, dense_level: u32) -> LitOctree {
+    LitOctree::new(gpu(), &random::scene(seed, count, DEPTH), &Shape::new(DEPTH, dense_level, Filter::Split), colourful)
+}
+
+/// A full grid of opacity `a` and radiance `radiance`.
+fn constant_field(radiance: DVec3, a: f64, dense_level: u32) -> LitOctree {
+    let n = CELLS as i64;
+    let voxels: Vec<Fragment> = (0..n * n * n).map(|i| aligned([i % n, i / n % n, i / (n * n)])).collect();
+    LitOctree::new(gpu(), &voxels, &Shape::new(DEPTH, dense_level, Filter::Nearest), |_, _| (radiance, a))
+}
+
+/// Anywhere in the grid and around it, faces and centres of cells among them.
+fn position(rng: &mut TestRng) -> [f32; 3] {
+    match rng.random_range(0..4) {
+        0 => [(); 3].map(|()| rng.random_range(-4..80) as f32 * 0.5),
+        _ => [(); 3].map(|()| rng.random_range(-2.0..CELLS + 2.0)),
+    }
+}
+
+/// What the sampler takes beside the position.
+fn level_or_width(rng: &mut TestRng, sampling: Sampling) -> f32 {
+    match sampling {
+        Sampling::Quadrilinear => rng.random_range(-1.0..7.0_f32).exp2(),
+        _ => rng.random_range(0..=DEPTH) as f32,
+    }
+}
+
+fn points(seed: u64, count: usize, sampling: Sampling) -> Vec<[f32; 4]> {
+    let mut rng = random::rng(seed);
+    let point = |_| {
+        let [x, y, z] = position(&mut rng);
+        [x, y, z, level_or_width(&mut rng, sampling)]
+    };
+    (0..count).map(point).collect()
+}
+
+fn reference(lit: &LitNodes, sampling: Sampling, direction: DVec3, point: &[f32; 4]) -> Sampled {
+    let [x, y, z, at] = point.map(f64::from);
+    let p = DVec3::new(x, y, z);
+    match sampling {
+        Sampling::Nearest => lit.nearest(at as u32, p, direction),
+        Sampling::Trilinear => lit.trilinear(at as u32, p, direction),
+        Sampling::Quadrilinear => lit.quadrilinear(at, p, direction),
+    }
+}
+
+fn direction() -> DVec3 {
+    DVec3::new(0.6, -0.48, 0.64)
+}
+
+/// Trilinear weights are off by the rounding of p / width − ½, at most 2^-24 · 34 an axis and so three
+/// times that for a product; sums and blends of 16 values add 32 roundings, log2 of the width 2^-21 of a
+/// blend. Under directional opacity pow adds 2^-21 of 1 (WGSL lets it inherit exp2 and log2).
+fn tolerance(largest: f64, directional: bool) -> f64 {
+    let roundings = 3.0 * 34.0 + 32.0 + 8.0 + if directional { 64.0 } else { 0.0 };
+    largest.max(1.0) * roundings * 2.0_f64.powi(-24)
+}
+
+/// How far α per cell may be off in a homogeneous medium where a node stores its opacity a across in f32:
+/// three roundings of a number near 1, times ∂α/∂a = (1 − a)^(1/w − 1) / w, at worst at the root.
+fn across_slack(alpha: f64) -> f64 {
+    let w = f64::from(CELLS);
+    3.0 * 2.0_f64.powi(-24) * (1.0 - alpha).powf(1.0 - w) / w
+}
+
+fn assert_matches(octree: &LitOctree, sampler: &Sampler, points: &[[f32; 4]]) {
+    let lit = if sampler.directional { octree.nodes.clone() } else { octree.isotropic() };
+    let largest = 0.3 * 16.0;
+    let mut seen = 0;
+    for (point, found) in points.iter().zip(octree.sample(gpu(), sampler, direction(), points)) {
+        let expected = reference(&lit, sampler.sampling, direction().as_vec3().as_dvec3(), point);
+        let off = (Vec3::from_slice(&found).as_dvec3() - expected.radiance).abs().max_element();
+        let alpha_off = (f64::from(found[3]) - expected.alpha).abs();
+        let limit = tolerance(largest, sampler.directional);
+        assert!(off.max(alpha_off) < limit, "{sampler:?} {point:?}: {found:?} is not {expected:?}");
+        seen += usize::from(expected.alpha > 0.0);
+    }
+    assert!(seen * 4 > points.len(), "{seen} of {} points see anything", points.len());
+}
+
+#[test]
+fn every_sampler_matches_the_reference_at_every_dense_level() {
+    for dense_level in 0..DEPTH {
+        let octree = random_octree(50 + u64::from(dense_level), 2500, dense_level);
+        for sampling in SAMPLINGS {
+            let points = points(60, 3000, sampling);
+            for directional in [false, true] {
+                assert_matches(&octree, &Sampler { sampling, directional, ..Sampler::default() }, &points);
+            }
+        }
+    }
+}
+
+#[test]
+fn ranks_and_pointers_give_the_same_bits() {
+    for (dense_level, count) in [(0, 5), (0, 1500), (2, 700), (4, 3000)] {
+        let octree = random_octree(70, count, dense_level);
+        for sampling in SAMPLINGS {
+            let points = points(80 + count as u64, 20_000, sampling);
+            for directional in [false, true] {
+                let bits = LOOKUPS.map(|lookup| {
+                    let sampled =
+                        octree.sample(gpu(), &Sampler { sampling, lookup, directional }, direction(), &points);
+                    bytemuck::pod_collect_to_vec::<[f32; 4], u32>(&sampled)
+                });
+                assert!(bits[0] == bits[1], "{sampling:?}, pointers of blocks, dense level {dense_level}");
+                assert!(bits[0] == bits[2], "{sampling:?}, pointers of nodes, dense level {dense_level}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_workgroup_size_samples_alike() {
+    let points = points(90, 5000, Sampling::Quadrilinear);
+    let all = [32, 64, 256].map(|size| {
+        let gpu = open().with_workgroup_size(size);
+        let voxels = random::scene(91, 800, DEPTH);
+        let octree = LitOctree::new(&gpu, &voxels, &Shape::new(DEPTH, 2, Filter::Split), colourful);
+        octree.sample(&gpu, &Sampler::default(), direction(), &points)
+    });
+    assert!(all.windows(2).all(|pair| pair[0] == pair[1]));
+}
+
+#[test]
+fn past_every_face_the_sample_is_zero() {
+    // Whatever wrapped a row would find a full grid.
+    let octree = constant_field(DVec3::ONE, 0.5, 1);
+    for (sampling, lookup) in SAMPLINGS.iter().flat_map(|s| LOOKUPS.map(|l| (*s, l))) {
+        for level in 0..=DEPTH {
+            let width = (1 << (DEPTH - level)) as f32;
+            let at = if sampling == Sampling::Quadrilinear { width } else { level as f32 };
+            // Half a node outside the grid even the last corner has no weight.
+            let beyond = |axis: usize, side: f32, by: f32| {
+                let mut p = [CELLS / 2.0 + 0.3; 3];
+                p[axis] = if side < 0.0 { -by } else { CELLS + by };
+                [p[0], p[1], p[2], at]
+            };
+            let outside: Vec<_> = (0..3)
+                .flat_map(|axis| [-1.0, 1.0].map(|side| (axis, side)))
+                .flat_map(|(axis, side)| [width, 0.5 * width, 3.0e9].map(|by| beyond(axis, side, by)))
+                .collect();
+            let sampler = Sampler { sampling, lookup, directional: false };
+            let found = octree.sample(gpu(), &sampler, DVec3::X, &outside);
+            assert!(found.iter().all(|sample| *sample == [0.0; 4]), "{sampler:?}, level {level}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn a_lone_voxel_spreads_over_its_neighbours_and_no_further() {
+    let mut rng = random::rng(95);
+    for _ in 0..10 {
+        let cell = [(); 3].map(|()| rng.random_range(0..i64::from(CELLS as u32)));
+        let shape = Shape::new(DEPTH, 0, Filter::Nearest);
+        let octree = LitOctree::new(gpu(), &[aligned(cell)], &shape, |_, _| (DVec3::ONE, 1.0));
+        let points = points(96, 2000, Sampling::Trilinear).into_iter().map(|p| [p[0], p[1], p[2], DEPTH as f32]);
+        let near = |rng: &mut TestRng| cell.map(|c| c as f32 + rng.random_range(-1.0..2.0));
+        let points: Vec<_> = points
+            .chain((0..500).map(|_| {
+                let [x, y, z] = near(&mut rng);
+                [x, y, z, DEPTH as f32]
+            }))
+            .collect();
+        for lookup in LOOKUPS {
+            let sampler = Sampler { sampling: Sampling::Trilinear, lookup, directional: false };
+            for (point, found) in points.iter().zip(octree.sample(gpu(), &sampler, DVec3::X, &points)) {
+                // The tent function of each axis.
+                let tent = |axis: usize| (1.0 - (f64::from(point[axis]) - cell[axis] as f64 - 0.5).abs()).max(0.0);
+                let expected = tent(0) * tent(1) * tent(2);
+                assert!((f64::from(found[3]) - expected).abs() < tolerance(1.0, false), "{cell:?} {point:?}");
+                assert!(expected > 0.0 || found == [0.0; 4]);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_constant_field_is_constant_at_every_level_and_width() {
+    let radiance = DVec3::new(0.25, 3.0, 70_000.0);
+    let octree = constant_field(radiance, 0.3, 2);
+    let mut rng = random::rng(97);
+    for sampling in SAMPLINGS {
+        for directional in [false, true] {
+            let inside = |rng: &mut TestRng| {
+                let at = level_or_width(rng, sampling);
+                // Half a node from the border of the coarser level on, every corner is in the grid.
+                let width = match sampling {
+                    Sampling::Quadrilinear => at.max(1.0).log2().ceil().exp2(),
+                    _ => (DEPTH as f32 - at).exp2(),
+                }
+                .min(CELLS);
+                let [x, y, z] = [(); 3].map(|()| rng.random_range(0.0..=1.0_f32) * (CELLS - width) + 0.5 * width);
+                [x, y, z, at]
+            };
+            let points: Vec<_> = (0..4000).map(|_| inside(&mut rng)).collect();
+            let sampler = Sampler { sampling, directional, ..Sampler::default() };
+            for (point, found) in points.iter().zip(octree.sample(gpu(), &sampler, direction(), &points)) {
+                let slack = tolerance(1.0, directional) + if directional { across_slack(0.3) } else { 0.0 };
+                assert!((f64::from(found[3]) - 0.3).abs() < slack, "{point:?}: {found:?}");
+                let color = Vec3::from_slice(&found).as_dvec3() / f64::from(found[3]);
+                assert!((color / radiance - 1.0).abs().max_element() < tolerance(1.0, false), "{point:?}: {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn partial_occupancy_divides_out_of_a_constant_radiance() {
+    let voxels = random::scene(98, 3000, DEPTH);
+    let octree = LitOctree::new(gpu(), &voxels, &Shape::new(DEPTH, 1, Filter::Split), |_, a| (DVec3::splat(5.0), a));
+    for sampling in SAMPLINGS {
+        for directional in [false, true] {
+            let points = points(99, 4000, sampling);
+            let sampler = Sampler { sampling, directional, ..Sampler::default() };
+            let found = octree.sample(gpu(), &sampler, direction(), &points);
+            for sample in found.iter().filter(|sample| sample[3] > 0.0) {
+                let color = f64::from(sample[0]) / f64::from(sample[3]);
+                assert!((color / 5.0 - 1.0).abs() < tolerance(1.0, false), "{sampler:?}: {sample:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn missing_pointers_are_named() {
+    let mut octree = random_octree(1, 3, 2);
+    octree.buffers.neighbours.free();
+    let sampled = |lookup| SampledOctree::new(&octree.built.params, &octree.buffers, &octree.light, lookup);
+    let error = sampled(Lookup::BlockPointers).expect_err("missing").to_string();
+    assert!(error.contains("neighbour pointers"), "{error}");
+    assert!(sampled(Lookup::Ranks).is_ok());
+}
