@@ -18,7 +18,7 @@ const SCALE_WIDTH: f32 = 260.0;
 pub struct Values {
     /// What light was multiplied by before it was shown.
     pub exposure: f64,
-    /// Ends of a slice's colour scale.
+    /// Ends of the colour scale of a slice or a shadow map.
     pub range: Option<[f64; 2]>,
 }
 
@@ -27,7 +27,11 @@ pub fn paint(painter: &Painter, view: Rect, look: &Look, values: Values) {
     let corner = view.left_top() + vec2(12.0, 12.0);
     match (look.view, look.color) {
         (View::Slice, _) => slice(painter, corner, &look.slice, values),
-        (View::ShadowMap, _) => {}
+        (View::ShadowMap, _) => {
+            let ticks = values.range.map(|range| ticks(range, false)).unwrap_or_default();
+            let color = |part| legend_value(ColorBy::Occupancy, part);
+            scale(painter, corner, "distance from the light, scene units", &ticks, color);
+        }
         (View::Voxels, color @ (ColorBy::Radiance | ColorBy::Irradiance)) => exposed(painter, corner, color, values),
         (View::Ghost, _) => swatches(
             painter,

@@ -28,7 +28,7 @@ pub struct Stage {
     pub accuracy: Option<AccuracyReport>,
     /// What light was multiplied by before the last picture showed it.
     pub exposure: f64,
-    /// Ends of the colour scale of the last slice.
+    /// Ends of the colour scale of the last slice or shadow map.
     pub value_range: Option<[f64; 2]>,
     /// Objects that the last pose asked for cannot show, a sentence each.
     left_out: Vec<String>,
@@ -176,6 +176,8 @@ impl Stage {
         self.timings = self.engine.timings();
         self.octree = self.engine.octree_report();
         self.accuracy = self.engine.accuracy();
+        self.exposure = self.engine.exposure();
+        self.value_range = self.engine.value_range();
         self.finished = self.engine.image().cloned();
     }
 }
