@@ -119,13 +119,13 @@ fn visibility(centre: vec3<f32>, unit: vec3<f32>, r: f32, to: Arrival) -> f32 {
     }
     // Out of the leaf's own surface: along its normal where that faces the light, else to the light.
     let along_normal = r >= SHORT_NORMAL && dot(unit, to.direction) > 0.0;
-    let from = centre + light.offset_cells * select(to.direction, unit, along_normal);
+    let start = centre + light.offset_cells * select(to.direction, unit, along_normal);
     if SHADOWS == SHADOWS_MAP {
-        return lit_share(from);
+        return lit_share(start);
     }
-    let end = select(distance(light.position, from), NEVER, light.kind == LIGHT_DIRECTIONAL);
-    let direction = select(normalize(light.position - from + 1e-6 * unit), to.direction, light.kind == LIGHT_DIRECTIONAL);
-    return transmittance(from, direction, end);
+    let end = select(distance(light.position, start), NEVER, light.kind == LIGHT_DIRECTIONAL);
+    let direction = select(normalize(light.position - start + 1e-6 * unit), to.direction, light.kind == LIGHT_DIRECTIONAL);
+    return transmittance(start, direction, end);
 }
 
 fn leaf_irradiance(centre: vec3<f32>, packed_normal: u32) -> vec3<f32> {

@@ -6,12 +6,13 @@ use std::time::Duration;
 use glam::{DMat4, DVec3, IVec3, Vec2, Vec3};
 use octolume::color::gamma_from_linear;
 use octolume::data::grid::Grid;
+use octolume::data::octree::Slot;
 use octolume::gpu::{Gpu, Job, Recorder};
 use octolume::scene::{LocalTransform, Material, Mesh, Node, OrbitCamera, Primitive, Scene, Skin, Trs};
 use octolume::settings::{Hidden, Look};
+use octolume::stages::mesh::{MeshScene, PosedMesh};
 use octolume::stages::view::camera::PixelRays;
 use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
-use octolume::stages::view::mesh_scene::MeshScene;
 use octolume::stages::view::{BACKGROUND, Picture, picture};
 
 pub const SIZE_PX: [u32; 2] = [64, 48];
@@ -66,17 +67,25 @@ pub fn look() -> Look {
     Look { shaded: false, ..Look::default() }
 }
 
-pub fn drawn(gpu: &Gpu, scene: Scene, look: &Look) -> Seen {
+/// The rest pose of a scene, uploaded and recorded.
+pub fn recorded(gpu: &Gpu, scene: &Scene, look: &Look) -> (Recorder, Picture) {
     let objects = (0..).zip(scene.objects()).collect();
     let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects);
     while !mesh.upload(gpu, &Hidden::default(), Duration::ZERO).expect("fits") {}
     let picture = Picture::new(gpu, SIZE_PX).expect("fits");
     let depth = picture::depth_buffer(gpu, SIZE_PX).expect("fits");
     let (camera, grid) = (camera(), grid());
+    let of_pose = (&scene.pose(None, 0.0), &Hidden::default());
+    let camera_from_world = mesh::camera_from_world(&camera, &grid);
+    let posed = PosedMesh::new(gpu, &mesh, &mut Slot::default(), of_pose, &camera_from_world).expect("fits");
     let mut recorder = Recorder::default();
-    let seen = MeshView { camera: &camera, grid: &grid, look, hidden: &Hidden::default() };
-    let target = MeshTarget { picture: &picture, depth: &depth };
-    mesh::record(gpu, &mut recorder, &mut mesh, &scene.pose(None, 0.0), seen, target).expect("records");
+    let seen = MeshView { camera: &camera, grid: &grid, look };
+    mesh::record(gpu, &mut recorder, &posed, seen, MeshTarget { picture: &picture, depth: &depth });
+    (recorder, picture)
+}
+
+pub fn drawn(gpu: &Gpu, scene: Scene, look: &Look) -> Seen {
+    let (recorder, picture) = recorded(gpu, &scene, look);
     Job::new(recorder).run_to_end(gpu).expect("runs");
     let bytes = picture.read(gpu).expect("readable").into_raw();
     let color = |p: &[u8]| DVec3::new(p[0].into(), p[1].into(), p[2].into()) / 255.0;

@@ -4,14 +4,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use glam::{DMat4, DQuat, DVec3, Vec4};
-use octolume::gpu::{Job, Recorder};
+use octolume::gpu::Job;
 use octolume::scene::{AlphaMode, LocalTransform, Material, Node, Scene, Texture, TextureRef, Trs, Wrap};
-use octolume::settings::{ColorBy, Hidden, Look};
+use octolume::settings::{ColorBy, Look};
 use octolume::stages::view::camera::PixelRays;
-use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
-use octolume::stages::view::mesh_scene::MeshScene;
 use octolume::stages::view::palette::legend_object;
-use octolume::stages::view::{AMBIENT, NO_DEPTH, Picture, picture};
+use octolume::stages::view::{AMBIENT, NO_DEPTH};
 
 use crate::device::{gpu, open};
 
@@ -207,16 +205,7 @@ fn slices_of_a_draw_make_the_whole_picture() {
     let many = scene(vec![square(); 8], (0..40).map(turned).collect());
     let whole = drawn(gpu(), many.clone(), &look());
     let gpu = open();
-    let objects = (0..).zip(many.objects()).collect();
-    let mut mesh = MeshScene::new(Arc::new(many.clone()), objects);
-    while !mesh.upload(&gpu, &Hidden::default(), Duration::ZERO).expect("fits") {}
-    let picture = Picture::new(&gpu, SIZE_PX).expect("fits");
-    let depth = picture::depth_buffer(&gpu, SIZE_PX).expect("fits");
-    let mut recorder = Recorder::default();
-    let (camera, grid, look) = (camera(), grid(), look());
-    let seen = MeshView { camera: &camera, grid: &grid, look: &look, hidden: &Hidden::default() };
-    let target = MeshTarget { picture: &picture, depth: &depth };
-    mesh::record(&gpu, &mut recorder, &mut mesh, &many.pose(None, 0.0), seen, target).expect("records");
+    let (recorder, picture) = recorded(&gpu, &many, &look());
     let mut job = Job::new(recorder);
     while job.advance(&gpu, Duration::from_micros(60)).expect("runs") != octolume::gpu::JobState::Done {
         std::thread::sleep(Duration::from_micros(100));

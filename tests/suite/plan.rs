@@ -14,9 +14,10 @@ use proptest::prelude::*;
 
 use crate::scenes::{at, cube_scene, skinned_scene, sliding_scene};
 
-const RIGID: SceneFacts = SceneFacts { rigid_voxels: 100, skinned_voxels: 0, triangles: 12 };
-const SKINNED: SceneFacts = SceneFacts { rigid_voxels: 0, skinned_voxels: 100, triangles: 12 };
-const FIRST: Changes = Changes {
+pub const RIGID: SceneFacts =
+    SceneFacts { rigid_voxels: 100, skinned_voxels: 0, triangles: 12, lights: 0, emissive_voxels: 0 };
+const SKINNED: SceneFacts = SceneFacts { rigid_voxels: 0, skinned_voxels: 100, ..RIGID };
+pub const FIRST: Changes = Changes {
     caches: true,
     residents: true,
     rigid_poses: true,
@@ -28,9 +29,14 @@ const FIRST: Changes = Changes {
     exact_known: false,
     view: true,
     object_numbers: true,
+    links: true,
+    emission: true,
+    shadow_maps: true,
+    lighting: true,
+    irradiance: true,
 };
-/// Nothing changed since a frame that had no object numbers and no second octree.
-const STILL: Changes = Changes {
+/// Nothing changed since a frame that had no object numbers, no second octree and no light.
+pub const STILL: Changes = Changes {
     caches: false,
     residents: false,
     rigid_poses: false,
@@ -42,6 +48,11 @@ const STILL: Changes = Changes {
     exact_known: false,
     view: false,
     object_numbers: true,
+    links: true,
+    emission: true,
+    shadow_maps: true,
+    lighting: true,
+    irradiance: true,
 };
 
 const BUILD: [Pass; 7] = [
@@ -54,11 +65,11 @@ const BUILD: [Pass; 7] = [
     Pass::AverageNodes,
 ];
 
-fn running(plan: &FramePlan) -> Vec<Pass> {
+pub fn running(plan: &FramePlan) -> Vec<Pass> {
     Pass::ALL.into_iter().filter(|&pass| plan.runs(pass)).collect()
 }
 
-fn reason(plan: &FramePlan, pass: Pass) -> (State, &'static str) {
+pub fn reason(plan: &FramePlan, pass: Pass) -> (State, &'static str) {
     let row = plan.rows.iter().find(|row| row.pass == pass).expect("every pass has a row");
     (row.state, row.reason)
 }
@@ -163,19 +174,21 @@ fn the_ghost_waits_for_the_exact_set() {
 proptest! {
     /// What runs is never skipped by another rule: no view without its octree, no gather twice.
     #[test]
-    fn plans_are_consistent(bits in 0_u32..1 << 11, view in 0..3, accuracy: bool, rigid in 0_u64..2, skinned in 0_u64..2) {
+    fn plans_are_consistent(bits in 0_u32..1 << 16, view in 0..5, accuracy: bool, rigid in 0_u64..2, skinned in 0_u64..2) {
         let bit = |index: u32| bits >> index & 1 == 1;
         let changed = Changes {
             caches: bit(0), residents: bit(1), rigid_poses: bit(2), skinned_poses: bit(3), octree: bit(4),
             other_octree: bit(5), exact: bit(6), exact_masks: bit(7), exact_known: bit(8), view: bit(9),
-            object_numbers: bit(10),
+            object_numbers: bit(10), links: bit(11), emission: bit(12), shadow_maps: bit(13), lighting: bit(14),
+            irradiance: bit(15),
         };
         let mut settings = Settings::default();
-        settings.look.view = [View::Voxels, View::Mesh, View::Ghost][view as usize];
+        settings.look.view = [View::Voxels, View::Mesh, View::Ghost, View::Slice, View::ShadowMap][view as usize];
         settings.look.accuracy = accuracy;
-        let plan = plan(&SceneFacts { rigid_voxels: rigid, skinned_voxels: skinned, triangles: 1 }, &changed, &settings);
+        let plan = plan(&SceneFacts { rigid_voxels: rigid, skinned_voxels: skinned, ..RIGID }, &changed, &settings);
         let runs = |pass| plan.runs(pass);
-        prop_assert!(u8::from(runs(Pass::MarchVoxels)) + u8::from(runs(Pass::DrawMesh)) + u8::from(runs(Pass::MarchGhost)) <= 1);
+        let pictures = [Pass::MarchVoxels, Pass::MarchLight, Pass::SliceOctree, Pass::ShowShadowMap, Pass::DrawMesh, Pass::MarchGhost];
+        prop_assert!(pictures.into_iter().filter(|&pass| runs(pass)).count() <= 1);
         prop_assert!(!(runs(Pass::GatherNearest) && runs(Pass::GatherSplit)));
         prop_assert_eq!(runs(Pass::MarkLeaves), runs(Pass::AverageNodes));
         prop_assert!(!(runs(Pass::TransformRigid) || runs(Pass::TransformSkinned)) || runs(Pass::MarkLeaves));
