@@ -15,12 +15,12 @@ pub fn ticks([low, high]: [f64; 2], is_logarithmic: bool) -> Vec<Tick> {
     if !(low.is_finite() && high.is_finite() && low < high) || is_logarithmic && low <= 0.0 {
         return Vec::new();
     }
-    let (values, part): (Vec<f64>, fn(f64, f64, f64) -> f64) = if is_logarithmic {
-        (powers_of_ten(low, high), |value, low, high| (value / low).ln() / (high / low).ln())
-    } else {
-        (multiples(low, high), |value, low, high| (value - low) / (high - low))
+    let values = if is_logarithmic { powers_of_ten(low, high) } else { multiples(low, high) };
+    let part = |value: f64| match is_logarithmic {
+        true => (value / low).ln() / (high / low).ln(),
+        false => (value - low) / (high - low),
     };
-    let tick = |value: f64| Tick { part: part(value, low, high).clamp(0.0, 1.0), label: short(value) };
+    let tick = |value: f64| Tick { part: part(value).clamp(0.0, 1.0), label: short(value) };
     values.into_iter().map(tick).collect()
 }
 

@@ -157,21 +157,25 @@ fn add_ui(ui: &mut Ui, panel: LightPanel<'_>, lighting: &mut Lighting, selected:
             menu.response.on_hover_text("A light where the camera is, which shines where it looks.");
         });
         match *selected {
-            Some(LightSource::Added(index)) if index < lighting.added.len() => {
-                if ui.button("Remove light").clicked() {
-                    lighting.added.remove(index);
-                    *selected = None;
-                }
-            }
+            Some(LightSource::Added(index)) => remove_ui(ui, lighting, index, selected),
             Some(LightSource::Node(node)) => {
                 let reset = ui.add_enabled(lighting.edits.contains_key(&node), Button::new("Reset light"));
                 if reset.on_hover_text("As it is in the file.").clicked() {
                     lighting.edits.remove(&node);
                 }
             }
-            _ => {}
+            Some(LightSource::Sun) | None => {}
         }
     });
+}
+
+fn remove_ui(ui: &mut Ui, lighting: &mut Lighting, index: usize, selected: &mut Option<LightSource>) {
+    // Undo may have taken it away.
+    let is_there = index < lighting.added.len();
+    if ui.add_enabled(is_there, Button::new("Remove light")).clicked() {
+        lighting.added.remove(index);
+        *selected = None;
+    }
 }
 
 fn at_camera(kind: LightKind, name: String, camera: &OrbitCamera) -> AddedLight {
