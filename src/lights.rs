@@ -1,12 +1,15 @@
 //! The lights of a pose: those of the scene as the settings want them, our own sun, and what was added.
 //!
-//! In: a scene, its pose, the settings. Out: lights in world space, in the order in which the shadow map
-//! view and the light panel count them. Lights of hidden nodes are off.
+//! In: a scene, its pose, the settings. Out: every light there is, with whether it shines and why not; and
+//! of those that shine their place in world space, in the order in which the shadow map view and the
+//! light panel count them. Lights of hidden nodes are off.
 
 use glam::DVec3;
 
-use crate::scene::{LightKind, Pose, Scene};
+use crate::prepare::{MotionError, Prepared};
+use crate::scene::{Light, LightKind, Pose, Scene};
 use crate::settings::lighting::{LightEdit, Lighting, SunShines};
+use crate::settings::{Settings, VisibilityError};
 
 /// A light where it is now. Directional lights have no position, point lights no direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,39 +26,62 @@ pub struct PosedLight {
     pub direction: DVec3,
 }
 
+/// Where a light comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightSource {
+    /// The file; carried by this node.
+    Node(usize),
+    Sun,
+    /// Into [`Lighting::added`].
+    Added(usize),
+}
+
+/// Whether a light shines, and if not, why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shines {
+    Yes,
+    Off,
+    /// Its colour or intensity is zero.
+    Black,
+    /// Its node is.
+    Hidden,
+    /// In this pose its node gives it no finite place, or no direction.
+    Nowhere,
+}
+
+/// A light, whether it shines or not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnownLight {
+    pub source: LightSource,
+    pub name: String,
+    /// As it shall be.
+    pub light: LightEdit,
+    pub shines: Shines,
+    position: DVec3,
+    direction: DVec3,
+}
+
+/// Why nobody knows where the lights are.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LightsError {
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    #[error(transparent)]
+    Visibility(#[from] VisibilityError),
+}
+
 /// How a light of the file is without an edit.
-pub fn unedited(light: &crate::scene::Light) -> LightEdit {
+pub fn unedited(light: &Light) -> LightEdit {
     let color = light.color.map(f64::from);
     LightEdit { on: true, kind: light.kind, color, intensity: f64::from(light.intensity) }
 }
 
-/// Lights that are on and not black. `shown`: by node; `emits`: something in the scene does.
-pub fn posed_lights(scene: &Scene, pose: &Pose, lighting: &Lighting, shown: &[bool], emits: bool) -> Vec<PosedLight> {
-    let carried = scene.nodes.iter().enumerate().filter_map(|(node, of)| Some((node, scene.lights.get(of.light?)?)));
-    let mut lights: Vec<PosedLight> = carried
-        .filter(|(node, _)| shown.get(*node).copied().unwrap_or(true))
-        .filter_map(|(node, light)| {
-            let edit = lighting.edits.get(&node).copied().unwrap_or_else(|| unedited(light));
-            let world_from_node = pose.world_from_node.get(node)?;
-            let direction = world_from_node.transform_vector3(DVec3::NEG_Z).normalize_or_zero();
-            posed(light.name.clone(), Some(node), &edit, world_from_node.w_axis.truncate(), direction)
-        })
-        .collect();
-    if sun_shines(scene, lighting, emits) {
-        let sun = &lighting.sun;
-        let edit =
-            LightEdit { on: true, kind: LightKind::Directional, color: sun.color, intensity: sun.illuminance_lux };
-        let direction = DVec3::from_array(sun.direction).normalize_or_zero();
-        lights.extend(posed("sun".to_owned(), None, &edit, DVec3::ZERO, direction));
-    }
-    lights.extend(lighting.added.iter().filter_map(|added| {
-        let direction = DVec3::from_array(added.direction).normalize_or_zero();
-        posed(added.name.clone(), None, &added.light, DVec3::from_array(added.position), direction)
-    }));
-    lights
+/// Something in the scene glows by itself, as far as the settings let it.
+pub fn emits(prepared: &Prepared, lighting: &Lighting) -> bool {
+    lighting.emission > 0.0 && prepared.caches.iter().any(|cache| !cache.emission.is_empty())
 }
 
-/// Whether our own sun is among the lights.
+/// Whether our own sun is among the lights. `emits`: something in the scene does.
 pub fn sun_shines(scene: &Scene, lighting: &Lighting, emits: bool) -> bool {
     match lighting.sun.shines {
         SunShines::Always => true,
@@ -64,14 +90,94 @@ pub fn sun_shines(scene: &Scene, lighting: &Lighting, emits: bool) -> bool {
     }
 }
 
-/// `None` where it is off, black, or its node's transform is not finite.
-fn posed(name: String, node: Option<usize>, edit: &LightEdit, position: DVec3, direction: DVec3) -> Option<PosedLight> {
-    let strength = DVec3::from_array(edit.color) * edit.intensity;
-    let is_on = edit.on && strength.max_element() > 0.0;
-    let is_placed = match edit.kind {
-        LightKind::Directional => direction != DVec3::ZERO,
-        LightKind::Point { .. } => position.is_finite(),
-        LightKind::Spot { .. } => position.is_finite() && direction != DVec3::ZERO,
-    };
-    (is_on && is_placed).then_some(PosedLight { name, node, kind: edit.kind, strength, position, direction })
+/// Every light of a pose that settings ask for.
+pub fn known_in(prepared: &Prepared, settings: &Settings) -> Result<Vec<KnownLight>, LightsError> {
+    let (scene, lighting) = (&prepared.scene, &settings.lighting);
+    let pose = prepared.pose(&settings.motion)?;
+    let shown = settings.visibility.shown_nodes(scene)?;
+    Ok(known_lights(scene, &pose, lighting, &shown, emits(prepared, lighting)))
+}
+
+/// Every light: of the scene in the order of its nodes, the sun, then what was added. `shown`: by node.
+pub fn known_lights(scene: &Scene, pose: &Pose, lighting: &Lighting, shown: &[bool], emits: bool) -> Vec<KnownLight> {
+    let carried = scene.nodes.iter().enumerate().filter_map(|(node, of)| Some((node, scene.lights.get(of.light?)?)));
+    let of_scene = carried.map(|(node, light)| {
+        let edit = lighting.edits.get(&node).copied().unwrap_or_else(|| unedited(light));
+        let is_hidden = !shown.get(node).copied().unwrap_or(true);
+        // A pose has as many matrices as the scene has nodes.
+        let world_from_node = pose.world_from_node.get(node).copied().unwrap_or(glam::DMat4::NAN);
+        let place = (world_from_node.w_axis.truncate(), world_from_node.transform_vector3(DVec3::NEG_Z));
+        KnownLight::new(LightSource::Node(node), light.name.clone(), edit, is_hidden, place)
+    });
+    let sun = &lighting.sun;
+    let on = sun_shines(scene, lighting, emits);
+    let light = LightEdit { on, kind: LightKind::Directional, color: sun.color, intensity: sun.illuminance_lux };
+    let place = (DVec3::ZERO, DVec3::from_array(sun.direction));
+    let sun = KnownLight::new(LightSource::Sun, "sun".to_owned(), light, false, place);
+    let added = lighting.added.iter().enumerate().map(|(index, added)| {
+        let place = (DVec3::from_array(added.position), DVec3::from_array(added.direction));
+        KnownLight::new(LightSource::Added(index), added.name.clone(), added.light, false, place)
+    });
+    of_scene.chain([sun]).chain(added).collect()
+}
+
+/// Lights that are on and not black. `shown`: by node; `emits`: something in the scene does.
+pub fn posed_lights(scene: &Scene, pose: &Pose, lighting: &Lighting, shown: &[bool], emits: bool) -> Vec<PosedLight> {
+    known_lights(scene, pose, lighting, shown, emits).into_iter().filter_map(KnownLight::posed).collect()
+}
+
+/// Lights that would shine, were they anywhere: a sentence each.
+pub fn left_out(scene: &Scene, pose: &Pose, lighting: &Lighting, shown: &[bool]) -> Vec<String> {
+    let known = known_lights(scene, pose, lighting, shown, false);
+    let lost = known.into_iter().filter(|light| light.shines == Shines::Nowhere);
+    lost.map(|light| {
+        let node = match light.source {
+            LightSource::Node(node) => format!(" of node \"{}\"", scene.nodes[node].name),
+            LightSource::Sun | LightSource::Added(_) => String::new(),
+        };
+        format!("light \"{}\"{node} is left out: in this pose it has no finite place or no direction", light.name)
+    })
+    .collect()
+}
+
+impl KnownLight {
+    /// `place`: position and direction, of any length.
+    fn new(source: LightSource, name: String, light: LightEdit, is_hidden: bool, place: (DVec3, DVec3)) -> Self {
+        let (position, direction) = (place.0, place.1.normalize_or_zero());
+        let is_placed = match light.kind {
+            LightKind::Directional => direction != DVec3::ZERO,
+            LightKind::Point { .. } => position.is_finite(),
+            LightKind::Spot { .. } => position.is_finite() && direction != DVec3::ZERO,
+        };
+        let shines = match () {
+            () if !light.on => Shines::Off,
+            () if strength(&light).max_element() <= 0.0 => Shines::Black,
+            () if is_hidden => Shines::Hidden,
+            () if !is_placed => Shines::Nowhere,
+            () => Shines::Yes,
+        };
+        Self { source, name, light, shines, position, direction }
+    }
+
+    /// `None` where it does not shine.
+    fn posed(self) -> Option<PosedLight> {
+        let node = match self.source {
+            LightSource::Node(node) => Some(node),
+            LightSource::Sun | LightSource::Added(_) => None,
+        };
+        let Self { name, light, position, direction, .. } = self;
+        let strength = strength(&light);
+        (self.shines == Shines::Yes).then_some(PosedLight {
+            name,
+            node,
+            kind: light.kind,
+            strength,
+            position,
+            direction,
+        })
+    }
+}
+
+fn strength(light: &LightEdit) -> DVec3 {
+    DVec3::from_array(light.color) * light.intensity
 }

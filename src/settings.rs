@@ -1,6 +1,8 @@
 //! Everything a person can set. Window and command line fill the same struct, a screenshot carries
 //! it, and the engine compares it with what was built to decide what a frame must do.
 
+mod light_edit;
+mod light_names;
 pub mod lighting;
 mod look;
 mod node_names;
@@ -8,6 +10,7 @@ mod visibility;
 
 use serde::{Deserialize, Serialize};
 
+pub use light_names::{LightChange, LightError};
 pub use lighting::Lighting;
 pub use look::{AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, View};
 pub use node_names::NodeNames;

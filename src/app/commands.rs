@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::App;
 use super::playback;
 use crate::scene::OrbitCamera;
-use crate::settings::{Discretization, Look, MotionSettings, Visibility};
+use crate::settings::{Discretization, Lighting, Look, MotionSettings, Visibility};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
@@ -18,6 +18,7 @@ pub enum Command {
     CancelLoading,
     Discretize(Discretization),
     Look(Look),
+    Light(Lighting),
     /// Another clip or turn, or a scrub of the timeline.
     Move(MotionSettings),
     TogglePlaying,
@@ -57,6 +58,7 @@ impl App {
             Command::CancelLoading => self.cancel_loading(),
             Command::Discretize(discretization) => self.settings.discretization = discretization,
             Command::Look(look) => self.settings.look = look,
+            Command::Light(lighting) => self.settings.lighting = lighting,
             Command::Camera(camera) => {
                 self.settings.look.camera = Some(camera);
                 self.moved_at_secs = Some(clock_secs);

@@ -6,6 +6,7 @@ use super::background::{Background, Outcome};
 use super::commands::Command;
 use super::panels::top_bar::Unfolded;
 use super::panels::tree::TreeState;
+use crate::lights::LightSource;
 
 pub struct Desk {
     /// The path field, as typed.
@@ -14,6 +15,8 @@ pub struct Desk {
     pub recent: Vec<PathBuf>,
     pub unfolded: Unfolded,
     pub tree: TreeState,
+    /// The light whose controls are shown.
+    pub light: Option<LightSource>,
     dialog: Option<Background<Option<PathBuf>>>,
 }
 
@@ -24,6 +27,7 @@ impl Default for Desk {
             recent: Vec::new(),
             unfolded: Unfolded { controls: true, tree: false, measurements: true },
             tree: TreeState::default(),
+            light: None,
             dialog: None,
         }
     }

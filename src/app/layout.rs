@@ -5,10 +5,14 @@ use std::time::Instant;
 use egui::{Panel, ScrollArea, TextEdit, Ui};
 
 use super::commands::Command;
+use super::panels::light::LightPanel;
 use super::panels::top_bar::TopBar;
 use super::panels::tree::TreePanel;
+use super::panels::view::ViewPanel;
 use super::panels::{self, section};
 use super::{App, shortcuts, theme};
+use crate::lights::{self, Shines};
+use crate::settings::View;
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
@@ -102,6 +106,7 @@ impl App {
 
     fn controls_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let settings = &self.settings;
+        let lights = self.shining();
         let grid = self.scene.as_ref().map(|ready| &ready.prepared.grid);
         let mut commands = section(ui, "Scene", true, |ui| {
             let scene = self.scene.as_ref().map(|ready| &*ready.prepared);
@@ -115,13 +120,42 @@ impl App {
         commands.extend(section(ui, "View", true, |ui| {
             let cameras = self.scene.as_ref().map_or(&[][..], |ready| &ready.prepared.scene.cameras);
             let depth = grid.map_or(settings.discretization.depth(), |grid| grid.depth);
-            let commands = panels::view::ui(ui, &settings.look, depth, cameras);
+            let exposure = self.stage.exposure;
+            let panel = ViewPanel { look: &settings.look, depth, cameras, lights: &lights, exposure };
+            let commands = panels::view::ui(ui, panel);
             panels::control(ui, "Save to", "Folder that screenshots are written to.", |ui| {
                 ui.add(TextEdit::singleline(&mut self.screenshots.folder).desired_width(f32::INFINITY))
             });
             commands
         }));
+        commands.extend(section(ui, "Light", false, |ui| self.light_ui(ui)));
         commands
+    }
+
+    /// Names of the lights that have a shadow map, as far as they are asked for.
+    fn shining(&self) -> Vec<String> {
+        let looked_at = self.settings.look.view == View::ShadowMap;
+        let known = self.prepared().filter(|_| looked_at).map(|prepared| lights::known_in(prepared, &self.settings));
+        let known = known.and_then(Result::ok).unwrap_or_default();
+        known.into_iter().filter(|light| light.shines == Shines::Yes).map(|light| light.name).collect()
+    }
+
+    fn light_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+        let Some(ready) = &self.scene else {
+            panels::nothing(ui, "No scene is open.");
+            return Vec::new();
+        };
+        let lighting = &self.settings.lighting;
+        let known = match lights::known_in(&ready.prepared, &self.settings) {
+            Ok(known) => known,
+            Err(error) => {
+                panels::nothing(ui, &error.to_string());
+                return Vec::new();
+            }
+        };
+        let camera = self.camera(self.view_px);
+        let panel = LightPanel { lighting, scene: &ready.prepared.scene, known: &known, camera };
+        panels::light::ui(ui, panel, &mut self.desk.light)
     }
 
     fn measurements_ui(&self, ui: &mut Ui) -> Vec<Command> {

@@ -2,18 +2,37 @@
 
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
 
+use super::scale_ticks::{Tick, ticks};
 use super::theme;
 use crate::color::srgb_byte;
-use crate::settings::{ColorBy, Look, View};
+use crate::settings::{ColorBy, Look, Slice, SliceValue, View};
 use crate::stages::view::GHOST_COLORS;
 use crate::stages::view::palette::legend_value;
 
 const SIZE: egui::Vec2 = vec2(150.0, 10.0);
+/// Room for numbers below.
+const SCALE_WIDTH: f32 = 260.0;
+
+/// What the colours of the last picture stand for, where they are of light.
+#[derive(Clone, Copy, Debug)]
+pub struct Values {
+    /// What light was multiplied by before it was shown.
+    pub exposure: f64,
+    /// Ends of the colour scale of a slice or a shadow map.
+    pub range: Option<[f64; 2]>,
+}
 
 /// Over the picture, top left; nothing where colours speak for themselves.
-pub fn paint(painter: &Painter, view: Rect, look: &Look) {
+pub fn paint(painter: &Painter, view: Rect, look: &Look, values: Values) {
     let corner = view.left_top() + vec2(12.0, 12.0);
     match (look.view, look.color) {
+        (View::Slice, _) => slice(painter, corner, &look.slice, values),
+        (View::ShadowMap, _) => {
+            let ticks = values.range.map(|range| ticks(range, false)).unwrap_or_default();
+            let color = |part| legend_value(ColorBy::Occupancy, part);
+            scale(painter, corner, "distance from the light, scene units", &ticks, color);
+        }
+        (View::Voxels, color @ (ColorBy::Radiance | ColorBy::Irradiance)) => exposed(painter, corner, color, values),
         (View::Ghost, _) => swatches(
             painter,
             corner,
@@ -48,15 +67,24 @@ fn swatches(painter: &Painter, corner: Pos2, entries: &[(Color32, &str)]) {
 
 /// The colour map as the picture uses it, with its ends named.
 fn ramp(painter: &Painter, corner: Pos2, map: ColorBy, name: &str, ends: [&str; 2]) {
+    bar(painter, Rect::from_min_size(corner, SIZE), |part| legend_value(map, part));
+    let below = corner + vec2(0.0, SIZE.y + 3.0);
+    text(painter, below, Align2::LEFT_TOP, ends[0]);
+    text(painter, below + vec2(SIZE.x / 2.0, 0.0), Align2::CENTER_TOP, name);
+    text(painter, below + vec2(SIZE.x, 0.0), Align2::RIGHT_TOP, ends[1]);
+}
+
+/// A bar of colours: sRGB bytes of a part, 0 left to 1 right.
+fn bar(painter: &Painter, rect: Rect, color: impl Fn(f64) -> [u8; 3]) {
     const STEPS: usize = 48;
     let mut mesh = Mesh::default();
     for step in 0..=STEPS {
         let part = step as f32 / STEPS as f32;
-        let [r, g, b] = legend_value(map, f64::from(part));
-        let color = Color32::from_rgb(r, g, b);
-        let x = corner.x + SIZE.x * part;
-        mesh.colored_vertex(pos2(x, corner.y), color);
-        mesh.colored_vertex(pos2(x, corner.y + SIZE.y), color);
+        let [r, g, b] = color(f64::from(part));
+        let x = rect.left() + rect.width() * part;
+        for y in [rect.top(), rect.bottom()] {
+            mesh.colored_vertex(pos2(x, y), Color32::from_rgb(r, g, b));
+        }
         if step > 0 {
             let last = 2 * step as u32;
             mesh.add_triangle(last - 2, last - 1, last);
@@ -64,10 +92,43 @@ fn ramp(painter: &Painter, corner: Pos2, map: ColorBy, name: &str, ends: [&str; 
         }
     }
     painter.add(Shape::mesh(mesh));
-    let below = corner + vec2(0.0, SIZE.y + 3.0);
-    text(painter, below, Align2::LEFT_TOP, ends[0]);
-    text(painter, below + vec2(SIZE.x / 2.0, 0.0), Align2::CENTER_TOP, name);
-    text(painter, below + vec2(SIZE.x, 0.0), Align2::RIGHT_TOP, ends[1]);
+}
+
+/// A bar with numbers below it, each at its part of the bar.
+fn scale(painter: &Painter, corner: Pos2, name: &str, ticks: &[Tick], color: impl Fn(f64) -> [u8; 3]) {
+    let rect = Rect::from_min_size(corner, vec2(SCALE_WIDTH, SIZE.y));
+    bar(painter, rect, color);
+    for tick in ticks {
+        let at = pos2(rect.left() + rect.width() * tick.part as f32, rect.bottom());
+        let ends = [at + vec2(0.0, -3.0), at + vec2(0.0, 2.0)];
+        painter.line_segment(ends, egui::Stroke::new(1.0, theme::STRONG));
+        let align = match tick.part {
+            part if part < 0.05 => Align2::LEFT_TOP,
+            part if part > 0.95 => Align2::RIGHT_TOP,
+            _ => Align2::CENTER_TOP,
+        };
+        text(painter, at + vec2(0.0, 3.0), align, &tick.label);
+    }
+    text(painter, rect.left_bottom() + vec2(0.0, 18.0), Align2::LEFT_TOP, name);
+}
+
+/// Light as voxels show it: what white stands for.
+fn exposed(painter: &Painter, corner: Pos2, color: ColorBy, values: Values) {
+    let (name, unit) = if color == ColorBy::Radiance { ("radiance", "nits") } else { ("irradiance", "lux") };
+    let name = format!("{name}, {unit}; exposure {:+.1} stops", values.exposure.log2());
+    let ticks = ticks([0.0, 1.0 / values.exposure], false);
+    scale(painter, corner, &name, &ticks, |part| [srgb_byte(part as f32); 3]);
+}
+
+fn slice(painter: &Painter, corner: Pos2, slice: &Slice, values: Values) {
+    let (name, map) = match slice.value {
+        SliceValue::Radiance => ("luminance of the radiance, nits", ColorBy::Radiance),
+        SliceValue::Irradiance => ("luminance of the irradiance, lux", ColorBy::Irradiance),
+        SliceValue::Occupancy => ("occupancy", ColorBy::Occupancy),
+    };
+    let ticks = values.range.map(|range| ticks(range, slice.logarithmic)).unwrap_or_default();
+    let name = if slice.logarithmic { format!("{name}, logarithmic") } else { name.to_owned() };
+    scale(painter, corner, &name, &ticks, |part| legend_value(map, part));
 }
 
 /// A linear colour of a shader as the picture shows it.

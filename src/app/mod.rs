@@ -27,6 +27,7 @@ mod panels;
 mod picture;
 mod playback;
 mod rescue;
+mod scale_ticks;
 mod screenshots;
 mod selection;
 mod shortcuts;

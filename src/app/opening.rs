@@ -79,10 +79,15 @@ impl App {
                 self.settings.motion = MotionSettings::default();
                 self.settings.look.camera = None;
                 self.settings.visibility = Visibility::default();
+                // Places and nodes of the scene before mean nothing here.
+                self.settings.lighting.edits.clear();
+                self.settings.lighting.added.clear();
+                self.settings.look.shadow_map = 0;
                 self.playback.pause();
             }
-            self.hide_named(&prepared.scene);
+            self.find_named(&prepared.scene);
             self.desk.tree = TreeState::default();
+            self.desk.light = None;
             self.undo = Undo::default();
             self.name_window(ctx, prepared);
             let name = &prepared.scene.name;
@@ -103,15 +108,26 @@ impl App {
         }
     }
 
-    /// Looks up what the command line and the settings hide; what the scene does not have hides nothing.
-    fn hide_named(&mut self, scene: &Scene) {
+    /// Looks up what the command line and the settings say of nodes by name or number; what the scene does
+    /// not have hides and changes nothing.
+    fn find_named(&mut self, scene: &Scene) {
+        let names = std::mem::take(&mut self.names);
         let visibility = &mut self.settings.visibility;
-        let applied = std::mem::take(&mut self.names).apply(scene, visibility);
-        match applied.and_then(|notes| visibility.shown_nodes(scene).map(|_| notes)) {
-            Ok(notes) => notes.into_iter().for_each(|note| self.journal.note(Severity::Warning, note)),
-            Err(error) => {
-                *visibility = Visibility::default();
-                self.journal.tell(Severity::Error, error.to_string());
+        let applied = names.apply(scene, visibility);
+        let hidden = applied.and_then(|notes| visibility.shown_nodes(scene).map(|_| notes));
+        let hidden = hidden.map_err(|error| {
+            *visibility = Visibility::default();
+            error.to_string()
+        });
+        let lighting = &mut self.settings.lighting;
+        let lit = names.change_lights(scene, lighting).map_err(|error| {
+            lighting.edits.clear();
+            error.to_string()
+        });
+        for found in [hidden, lit] {
+            match found {
+                Ok(notes) => notes.into_iter().for_each(|note| self.journal.note(Severity::Warning, note)),
+                Err(error) => self.journal.tell(Severity::Error, error),
             }
         }
     }

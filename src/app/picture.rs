@@ -128,6 +128,7 @@ impl App {
         let coarse = if size_px == full_px { "" } else { ", coarse" };
         let size = format!("{} × {} px{coarse}", size_px[0], size_px[1]);
         legend::caption(&painter, rect.right_bottom() + vec2(-14.0, -10.0), Align2::RIGHT_BOTTOM, &size);
-        legend::paint(&painter, rect, &self.settings.look);
+        let values = legend::Values { exposure: self.stage.exposure, range: self.stage.value_range };
+        legend::paint(&painter, rect, &self.settings.look, values);
     }
 }

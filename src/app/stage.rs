@@ -26,6 +26,10 @@ pub struct Stage {
     /// Of the last octree that was finished.
     pub octree: Option<OctreeReport>,
     pub accuracy: Option<AccuracyReport>,
+    /// What light was multiplied by before the last picture showed it.
+    pub exposure: f64,
+    /// Ends of the colour scale of the last slice or shadow map.
+    pub value_range: Option<[f64; 2]>,
     /// Objects that the last pose asked for cannot show, a sentence each.
     left_out: Vec<String>,
     /// Those of them that the pose before could show.
@@ -59,6 +63,8 @@ impl Stage {
             plan: FramePlan::default(),
             octree: None,
             accuracy: None,
+            exposure: 1.0,
+            value_range: None,
             left_out: Vec::new(),
             newly_left_out: Vec::new(),
             state: State::Idle,
@@ -170,6 +176,8 @@ impl Stage {
         self.timings = self.engine.timings();
         self.octree = self.engine.octree_report();
         self.accuracy = self.engine.accuracy();
+        self.exposure = self.engine.exposure();
+        self.value_range = self.engine.value_range();
         self.finished = self.engine.image().cloned();
     }
 }

@@ -10,6 +10,7 @@ use octolume::scene::bounds::Aabb;
 use octolume::settings::{Settings, View};
 use serde::Serialize;
 
+use super::light_facts::{self, LightFacts};
 use super::options::{Common, Moment};
 use super::session::{NO_PICTURE, Session};
 use super::{Usage, output};
@@ -39,6 +40,8 @@ struct Facts {
     /// Nodes that are joints of a skin, each once.
     joints: usize,
     clips: Vec<ClipFacts>,
+    /// After all edits; our own sun is the last before those that were added.
+    lights: Vec<LightFacts>,
     /// The file's scenes, and which of them is shown.
     scenes: Vec<String>,
     shown_scene: Option<usize>,
@@ -77,13 +80,14 @@ impl Info {
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         session.run(&settings, NO_PICTURE)?;
         let levels = session.engine.octree_report().map(|report| report.levels).unwrap_or_default();
-        let facts = Facts::new(&session.prepared, &settings, levels);
+        let lights = light_facts::lights(&session.prepared, &settings)?;
+        let facts = Facts::new(&session.prepared, &settings, lights, levels);
         if self.json { output::json(&facts) } else { output::result(&facts.text()) }
     }
 }
 
 impl Facts {
-    fn new(prepared: &Prepared, settings: &Settings, levels: Vec<LevelReport>) -> Self {
+    fn new(prepared: &Prepared, settings: &Settings, lights: Vec<LightFacts>, levels: Vec<LevelReport>) -> Self {
         let scene = &prepared.scene;
         let objects = scene.objects();
         Self {
@@ -99,6 +103,7 @@ impl Facts {
                 .iter()
                 .map(|clip| ClipFacts { name: clip.name.clone(), seconds: clip.duration_secs })
                 .collect(),
+            lights,
             scenes: scene.scene_names.clone(),
             shown_scene: scene.shown_scene,
             extensions: scene.extensions.clone(),
@@ -122,6 +127,7 @@ impl Facts {
             format!("grid of {} cells of {} units, {} voxels in the caches", self.grid, self.span, self.voxels),
         ];
         lines.extend(self.clips.iter().map(|clip| format!("clip \"{}\", {:.3} s", clip.name, clip.seconds)));
+        lines.extend(self.lights.iter().map(LightFacts::text));
         if !self.extensions.is_empty() {
             lines.push(format!("extensions: {}", self.extensions.join(", ")));
         }

@@ -8,6 +8,10 @@ mod accuracy;
 mod bench;
 mod cache;
 mod info;
+mod light_facts;
+mod light_values;
+mod lighting_options;
+mod look_options;
 mod make;
 mod options;
 mod output;
@@ -16,6 +20,7 @@ mod render;
 mod session;
 mod statistics;
 mod values;
+mod view_values;
 mod voxels;
 mod window;
 

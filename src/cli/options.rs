@@ -11,6 +11,7 @@ use octolume::scene::OrbitCamera;
 use octolume::scene::load::{OpenOptions, SceneChoice};
 use octolume::settings::{Discretization, Filter, NodeNames, Settings, VoxelAnchor};
 
+use super::lighting_options::LightingOptions;
 use super::{Usage, values};
 
 #[derive(Debug, Args)]
@@ -66,6 +67,8 @@ pub struct Common {
     no_cache: bool,
     #[command(flatten)]
     opening: Opening,
+    #[command(flatten)]
+    lighting: LightingOptions,
 }
 
 /// What of a file is opened, and at what price.
@@ -100,6 +103,7 @@ impl Common {
             let fov_y_degrees = self.fov.unwrap_or(OrbitCamera::default().fov_y_degrees);
             settings.look.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
         }
+        self.lighting.apply(&mut settings.lighting);
         Ok(settings)
     }
 
@@ -116,9 +120,9 @@ impl Common {
         if self.no_cache { None } else { DiskCache::standard() }
     }
 
-    /// The nodes that options name: which they are depends on the scene.
+    /// The nodes and lights that options name: which they are depends on the scene.
     pub fn node_names(&self) -> NodeNames {
-        NodeNames { hide: self.hide.clone(), only: self.only.clone() }
+        NodeNames { hide: self.hide.clone(), only: self.only.clone(), lights: self.lighting.changes() }
     }
 
     /// The settings that the file named by `--settings` holds, and its size if it is a picture.

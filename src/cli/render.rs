@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use octolume::export;
-use octolume::settings::{AlphaRule, ColorBy, Settings, View};
+use octolume::settings::{Settings, View};
 
 use super::Usage;
-use super::options::{Common, Moment, set};
+use super::look_options::LookOptions;
+use super::options::{Common, Moment};
 use super::session::Session;
-use super::values::{self, Frames, Size, ViewChoice};
+use super::values::{self, Frames, Size};
 
 /// Size of a picture where neither option nor settings picture tells.
 const SIZE_PX: [u32; 2] = [1280, 720];
@@ -22,21 +23,6 @@ pub struct Render {
     /// The .png file to write; with --frames, -0000 and so on goes before its extension
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
-    /// What to show
-    #[arg(long, value_name = "voxels|mesh|ghost|level:N")]
-    view: Option<ViewChoice>,
-    /// What colours mean
-    #[arg(long, value_name = "albedo|normal|occupancy|object|level", value_parser = values::name::<ColorBy>)]
-    color: Option<ColorBy>,
-    /// How a voxel of partial occupancy covers what is behind it
-    #[arg(long, value_name = "paper|length", value_parser = values::name::<AlphaRule>)]
-    alpha: Option<AlphaRule>,
-    /// Draws the edges of voxels
-    #[arg(long)]
-    edges: bool,
-    /// Shows bare colours, without the headlight
-    #[arg(long)]
-    no_shading: bool,
     /// Pixels; 1280x720, or as large as the picture given by --settings
     #[arg(long, value_name = "WxH")]
     size: Option<Size>,
@@ -46,6 +32,8 @@ pub struct Render {
     /// Frames a second: frame k is at k / FPS seconds
     #[arg(long, value_name = "FPS", value_parser = values::frames_per_sec, requires = "frames")]
     fps: Option<f64>,
+    #[command(flatten)]
+    look: LookOptions,
     #[command(flatten)]
     moment: Moment,
     #[command(flatten)]
@@ -67,14 +55,7 @@ impl Render {
     fn settings(&self) -> anyhow::Result<Settings> {
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
-        let look = &mut settings.look;
-        if let Some(choice) = self.view {
-            (look.view, look.level) = (choice.view, choice.level);
-        }
-        set(&mut look.color, self.color);
-        set(&mut look.alpha, self.alpha);
-        look.voxel_edges |= self.edges;
-        look.shaded &= !self.no_shading;
+        self.look.apply(&mut settings.look);
         settings.check().map_err(Usage)?;
         Ok(settings)
     }

@@ -76,8 +76,8 @@ impl Session {
     }
 }
 
-/// Opens and voxelizes a scene, and says what there is to know about it. What the options hide is
-/// added to the settings.
+/// Opens and voxelizes a scene, and says what there is to know about it. What the options hide, and the
+/// lights they change, are added to the settings.
 pub fn prepare_only(
     scene: &Path,
     common: &Common,
@@ -85,7 +85,9 @@ pub fn prepare_only(
     settings: &mut Settings,
 ) -> anyhow::Result<Arc<Prepared>> {
     let scene = open_scene(scene, &common.open_options())?;
-    output::warnings(&common.node_names().apply(&scene, &mut settings.visibility)?);
+    let names = common.node_names();
+    output::warnings(&names.apply(&scene, &mut settings.visibility)?);
+    output::warnings(&names.change_lights(&scene, &mut settings.lighting)?);
     settings.visibility.shown_nodes(&scene)?;
     let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;
     output::warnings(&prepared.warnings);

@@ -4,9 +4,10 @@
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-use octolume::settings::View;
 use serde::de::value::Error as NameError;
 use serde::de::{DeserializeOwned, IntoDeserializer};
+
+pub use super::view_values::{Exposure, SliceChoice, SliceScale, ViewChoice};
 
 const FRAMES_PER_SEC: RangeInclusive<f64> = 0.001..=1000.0;
 
@@ -78,26 +79,6 @@ impl FromStr for Frames {
     }
 }
 
-/// What `--view` says: a view, and for `level:N` the octree level shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ViewChoice {
-    pub view: View,
-    pub level: Option<u32>,
-}
-
-impl FromStr for ViewChoice {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if let Some(level) = text.strip_prefix("level:") {
-            let level = level.parse().map_err(|_| "a level is a number, 0 is the root".to_owned())?;
-            return Ok(Self { view: View::Voxels, level: Some(level) });
-        }
-        let view = name(text).map_err(|error| format!("{error}, or `level:N`"))?;
-        Ok(Self { view, level: None })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use octolume::settings::{ColorBy, Filter};
@@ -130,14 +111,10 @@ mod tests {
     }
 
     #[test]
-    fn sizes_frames_and_views_are_checked() {
+    fn sizes_and_frames_are_checked() {
         assert_eq!("640x480".parse(), Ok(Size([640, 480])));
         assert!("640".parse::<Size>().is_err() && "0x9".parse::<Size>().is_err() && "9000x9".parse::<Size>().is_err());
         assert_eq!("2:5".parse(), Ok(Frames { first: 2, last: 5 }));
         assert!("5:2".parse::<Frames>().is_err() && "5".parse::<Frames>().is_err());
-        assert_eq!("level:3".parse(), Ok(ViewChoice { view: View::Voxels, level: Some(3) }));
-        assert_eq!("ghost".parse(), Ok(ViewChoice { view: View::Ghost, level: None }));
-        assert!("level:leaf".parse::<ViewChoice>().is_err());
-        assert!("glass".parse::<ViewChoice>().is_err());
     }
 }

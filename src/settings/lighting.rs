@@ -2,10 +2,11 @@
 //! directional lights, candela for point and spot lights; radiance of the sky in nits.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::LightKind;
+pub use super::light_edit::{AddedLight, LightEdit, LightPart};
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -67,7 +68,12 @@ pub struct Sun {
 impl Default for Sun {
     fn default() -> Self {
         let color = [1.0, 0.96, 0.9];
-        Self { shines: SunShines::default(), direction: [-0.35, -1.0, -0.25], color, illuminance_lux: 10_000.0 }
+        Self {
+            shines: SunShines::default(),
+            direction: [-0.35, -1.0, -0.25],
+            color,
+            illuminance_lux: LightEdit::DIRECTIONAL_LUX,
+        }
     }
 }
 
@@ -79,30 +85,6 @@ pub enum SunShines {
     Unlit,
     Always,
     Never,
-}
-
-/// A light of the scene as it shall be. Place and direction stay those of its node.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LightEdit {
-    pub on: bool,
-    pub kind: LightKind,
-    /// Linear RGB.
-    pub color: [f64; 3],
-    /// Lux or candela.
-    pub intensity: f64,
-}
-
-/// A light that is not in the file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AddedLight {
-    pub name: String,
-    pub light: LightEdit,
-    /// Scene units.
-    pub position: [f64; 3],
-    /// The way it shines; any length but 0.
-    pub direction: [f64; 3],
 }
 
 /// How a leaf learns whether a light reaches it.
@@ -134,6 +116,15 @@ impl Lighting {
     pub const MAX_BOUNCES: u32 = 64;
     pub const MAX_CONES: u32 = 256;
     pub const MAX_ADDED: usize = 64;
+    pub const SHADOW_OFFSETS_VOXELS: RangeInclusive<f64> = 0.0..=16.0;
+    pub const CONE_DEGREES: RangeInclusive<f64> = 0.0..=120.0;
+
+    /// What an added light is called that nobody has named.
+    pub fn free_name(&self) -> String {
+        let name = |number: usize| format!("light {number}");
+        let is_free = |name: &String| self.added.iter().all(|added| added.name != *name);
+        (1..).map(name).find(is_free).unwrap_or_default()
+    }
 
     /// Are all values in range? If not, the sentence names value and range.
     pub(super) fn check(&self) -> Result<(), String> {
@@ -148,12 +139,7 @@ impl Lighting {
             return Err(format!("{} lights are added, and {} is the limit", self.added.len(), Self::MAX_ADDED));
         }
         for added in &self.added {
-            let name = format!("light \"{}\"", added.name);
-            added.light.check(&name)?;
-            check_direction(&name, added.direction)?;
-            if !added.position.iter().all(|coordinate| coordinate.is_finite()) {
-                return Err(format!("the position of {name} is not finite"));
-            }
+            added.check()?;
         }
         self.check_method()
     }
@@ -163,7 +149,7 @@ impl Lighting {
             let sizes = Self::SHADOW_MAPS_PX;
             return Err(format!("a shadow map of {} texels is not one of {sizes:?}", self.shadow_map_px));
         }
-        if !(0.0..=16.0).contains(&self.shadow_offset_voxels) {
+        if !Self::SHADOW_OFFSETS_VOXELS.contains(&self.shadow_offset_voxels) {
             return Err(format!("a shadow offset of {} voxels is not in 0 to 16", self.shadow_offset_voxels));
         }
         if self.bounces > Self::MAX_BOUNCES {
@@ -172,34 +158,14 @@ impl Lighting {
         if !(1..=Self::MAX_CONES).contains(&self.cones) {
             return Err(format!("{} cones are not in 1 to {}", self.cones, Self::MAX_CONES));
         }
-        if !(0.0..=120.0).contains(&self.cone_degrees) {
+        if !Self::CONE_DEGREES.contains(&self.cone_degrees) {
             return Err(format!("an aperture of {} degrees is not in 0 to 120", self.cone_degrees));
         }
         Ok(())
     }
 }
 
-impl LightEdit {
-    fn check(&self, name: &str) -> Result<(), String> {
-        check_intensity(name, self.color, self.intensity)?;
-        let (LightKind::Point { range } | LightKind::Spot { range, .. }) = self.kind else { return Ok(()) };
-        if range.is_some_and(|range| !(range.is_finite() && range > 0.0)) {
-            return Err(format!("the range of {name} is not a finite number above 0"));
-        }
-        match self.kind {
-            LightKind::Spot { inner_cone_radians: inner, outer_cone_radians: outer, .. }
-                if !(0.0 <= inner && inner < outer && outer <= std::f32::consts::FRAC_PI_2) =>
-            {
-                Err(format!(
-                    "the cone of {name} goes from {inner} to {outer} radians; it must grow from 0 to at most π/2"
-                ))
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-fn check_intensity(name: &str, color: [f64; 3], intensity: f64) -> Result<(), String> {
+pub(super) fn check_intensity(name: &str, color: [f64; 3], intensity: f64) -> Result<(), String> {
     let is_amount = |value: &f64| value.is_finite() && *value >= 0.0;
     if color.iter().chain([&intensity]).all(is_amount) {
         return Ok(());
@@ -207,7 +173,7 @@ fn check_intensity(name: &str, color: [f64; 3], intensity: f64) -> Result<(), St
     Err(format!("colour {color:?} and intensity {intensity} of {name} must be finite and not negative"))
 }
 
-fn check_direction(name: &str, direction: [f64; 3]) -> Result<(), String> {
+pub(super) fn check_direction(name: &str, direction: [f64; 3]) -> Result<(), String> {
     let length = glam::DVec3::from_array(direction).length();
     if length.is_finite() && length > 0.0 {
         return Ok(());

@@ -1,5 +1,7 @@
 //! What the picture shows, and how.
 
+use std::ops::RangeInclusive;
+
 use serde::{Deserialize, Serialize};
 
 use crate::scene::OrbitCamera;
@@ -49,18 +51,20 @@ impl Default for Look {
 }
 
 impl Look {
+    pub const EXPOSURE_STOPS: RangeInclusive<f64> = -40.0..=40.0;
+
     /// For an octree of `depth` levels below its root.
     pub(super) fn check(&self, depth: u32) -> Result<(), String> {
         if let Some(level) = self.level.filter(|level| *level > depth) {
             return Err(format!("level {level} is not one of 0 (the root) to {depth} (the leaves)"));
         }
-        if self.exposure_stops.is_some_and(|stops| !(-40.0..=40.0).contains(&stops)) {
-            return Err(format!("an exposure of {:?} stops is not in -40 to 40", self.exposure_stops));
+        if let Some(stops) = self.exposure_stops.filter(|stops| !Self::EXPOSURE_STOPS.contains(stops)) {
+            return Err(format!("an exposure of {stops} stops is not in -40 to 40"));
         }
         if !(0.0..=1.0).contains(&self.slice.height) {
             return Err(format!("a slice at {} of the grid is not in 0 to 1", self.slice.height));
         }
-        if !(1.0..=1024.0).contains(&self.slice.width_cells) {
+        if !Slice::WIDTHS_CELLS.contains(&self.slice.width_cells) {
             return Err(format!("a width of {} cells is not in 1 to 1024", self.slice.width_cells));
         }
         self.camera.map_or(Ok(()), |camera| check_camera(&camera))
@@ -106,6 +110,10 @@ pub struct Slice {
     pub width_cells: f64,
     /// Colours go with the logarithm of the value.
     pub logarithmic: bool,
+}
+
+impl Slice {
+    pub const WIDTHS_CELLS: RangeInclusive<f64> = 1.0..=1024.0;
 }
 
 impl Default for Slice {

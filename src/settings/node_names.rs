@@ -1,19 +1,21 @@
-//! Nodes to hide or to show alone by name, as a command line gives them. In: names and a scene. Out:
-//! its nodes in a [`Visibility`], and a sentence for each name that several nodes share.
+//! Nodes to hide or to show alone and lights to change by name, as a command line gives them. In: names
+//! and a scene. Out: its nodes in a [`Visibility`], edits in a [`Lighting`], and a sentence for each
+//! name that several share.
 
 use std::collections::BTreeSet;
 
 use super::visibility::with_descendants;
-use super::{Visibility, VisibilityError};
+use super::{LightChange, LightError, Lighting, Visibility, VisibilityError};
 use crate::scene::Scene;
 
 /// A name that several nodes share means all of them.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct NodeNames {
     /// Hidden with everything below them.
     pub hide: Vec<String>,
     /// If there are any: shown alone, with everything below them.
     pub only: Vec<String>,
+    pub lights: Vec<LightChange>,
 }
 
 /// Names that an error lists at most.
@@ -39,6 +41,11 @@ impl NodeNames {
             visibility.only.extend(nodes);
         }
         Ok(notes)
+    }
+
+    /// The same of the lights; where one name is wrong, no light is changed.
+    pub fn change_lights(&self, scene: &Scene, lighting: &mut Lighting) -> Result<Vec<String>, LightError> {
+        lighting.change(scene, &self.lights)
     }
 }
 
@@ -69,7 +76,7 @@ mod tests {
 
     fn names(hide: &[&str], only: &[&str]) -> NodeNames {
         let owned = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
-        NodeNames { hide: owned(hide), only: owned(only) }
+        NodeNames { hide: owned(hide), only: owned(only), ..NodeNames::default() }
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod corpus;
 mod defects;
 mod files;
 mod hidden;
+mod lights;
 mod models;
 mod pictures;
 mod reports;

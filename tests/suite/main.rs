@@ -30,6 +30,7 @@ mod illegal_files;
 mod illuminate;
 mod light_rig;
 mod light_store;
+mod lights;
 mod link;
 mod lit_octree;
 mod loading;

@@ -2,6 +2,7 @@
 
 mod controls;
 mod files;
+mod lights;
 mod opening;
 mod rig;
 mod tree;

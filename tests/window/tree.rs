@@ -182,7 +182,7 @@ fn ten_thousand_nodes_lay_out_the_rows_on_screen_alone() {
 
 #[test]
 fn another_scene_is_shown_whole_and_names_of_the_command_line_hide() {
-    let names = NodeNames { hide: vec!["walls".to_owned()], only: Vec::new() };
+    let names = NodeNames { hide: vec!["walls".to_owned()], ..NodeNames::default() };
     let mut window = Window::with(wgpu_setup(), "courtyard", small_grid(), names);
     assert_eq!(window.app().settings().visibility.hidden.len(), 1);
     let folder = tempfile::tempdir().expect("a folder");

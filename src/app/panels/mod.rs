@@ -4,12 +4,16 @@
 pub mod discretization;
 pub mod filter;
 pub mod icon;
+pub mod light;
+mod light_editor;
+mod light_method;
 pub mod log;
 pub mod memory;
 mod node_facts;
 pub mod octree;
 pub mod plan;
 pub mod scene;
+mod slice;
 pub mod table;
 pub mod timeline;
 pub mod timings;
@@ -18,7 +22,9 @@ pub mod tree;
 mod tree_row;
 pub mod view;
 
-use egui::{CollapsingHeader, Response, RichText, Ui, WidgetInfo, vec2};
+use std::ops::RangeInclusive;
+
+use egui::{CollapsingHeader, DragValue, Response, RichText, Slider, SliderClamping, Ui, WidgetInfo, vec2};
 
 use super::commands::Command;
 use super::theme;
@@ -80,6 +86,17 @@ pub fn choice<T: PartialEq + Copy>(
     let mut changed = false;
     control(ui, name, tip, |ui| ui.horizontal(|ui| changed = switch(ui, value, options)).response);
     changed
+}
+
+/// A slider that leaves alone what nobody drags, also where it has more digits than are shown.
+pub fn slider<N: egui::emath::Numeric>(value: &mut N, range: RangeInclusive<N>) -> Slider<'_> {
+    Slider::new(value, range).clamping(SliderClamping::Edits)
+}
+
+/// A number that may be dragged, a hundredth of itself a point, and leaves alone what nobody drags.
+pub fn number<N: egui::emath::Numeric>(value: &mut N, range: RangeInclusive<N>) -> DragValue<'_> {
+    let speed = (value.to_f64().abs() * 0.01).max(0.01);
+    DragValue::new(value).speed(speed).range(range).clamp_existing_to_range(false).update_while_editing(false)
 }
 
 /// Names a number that shows no name of its own.

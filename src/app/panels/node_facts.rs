@@ -2,11 +2,12 @@
 
 use egui::{Grid, RichText, Ui};
 
+use super::light::short_unit;
 use super::tree::TreePanel;
 use super::{fact, grouped};
 use crate::app::{outline, theme};
 use crate::prepare::PreparedObject;
-use crate::scene::{LightKind, Motion, Projection, Scene};
+use crate::scene::{Motion, Projection, Scene};
 
 pub fn ui(ui: &mut Ui, panel: TreePanel<'_>, node: usize) {
     let scene = &panel.prepared.scene;
@@ -99,12 +100,8 @@ fn carried_ui(ui: &mut Ui, panel: TreePanel<'_>, node: usize) {
     }
     if let Some(light) = scene.nodes[node].light {
         let light = &scene.lights[light];
-        let (kind, unit) = match light.kind {
-            LightKind::Directional => ("directional", "lx"),
-            LightKind::Point { .. } => ("point", "cd"),
-            LightKind::Spot { .. } => ("spot", "cd"),
-        };
-        fact(ui, "Light", &format!("{kind}, {} {unit}", light.intensity), "KHR_lights_punctual.");
+        let text = format!("{}, {} {}", light.kind.name(), light.intensity, short_unit(light.kind));
+        fact(ui, "Light", &text, "As it is in the file; the Light panel can change it.");
     }
     let clips = scene.clips.iter().filter_map(|clip| {
         let properties: Vec<&str> = clip

@@ -2,15 +2,46 @@
 
 use egui::{Slider, Ui};
 
-use super::{choice, control};
+use super::{choice, control, slice, slider};
 use crate::app::commands::Command;
 use crate::scene::SceneCamera;
 use crate::settings::{AlphaRule, ColorBy, Look, View};
 
-/// `depth`: the octree's, so that the level slider ends at its leaves. `cameras`: those of the file.
-pub fn ui(ui: &mut Ui, current: &Look, depth: u32, cameras: &[SceneCamera]) -> Vec<Command> {
-    let mut look = *current;
+/// What there is to look at.
+#[derive(Clone, Copy)]
+pub struct ViewPanel<'a> {
+    pub look: &'a Look,
+    /// The octree's, so that the level slider ends at its leaves.
+    pub depth: u32,
+    /// Those of the file.
+    pub cameras: &'a [SceneCamera],
+    /// Names of those that have a shadow map, in the shadow map view.
+    pub lights: &'a [String],
+    /// What light was multiplied by in the last picture.
+    pub exposure: f64,
+}
+
+pub fn ui(ui: &mut Ui, panel: ViewPanel<'_>) -> Vec<Command> {
+    let mut look = *panel.look;
     let mut commands = Vec::new();
+    view_ui(ui, &mut look);
+    match look.view {
+        View::Slice => slice::ui(ui, &mut look.slice),
+        View::ShadowMap => shadow_map_ui(ui, &mut look, panel.lights),
+        View::Voxels | View::Mesh | View::Ghost => surface_ui(ui, &mut look, panel.depth),
+    }
+    let is_exposed = look.view == View::Voxels && look.color.is_light();
+    if is_exposed {
+        exposure_ui(ui, &mut look, panel.exposure);
+    }
+    commands.extend(camera_ui(ui, panel.look, panel.cameras));
+    if look != *panel.look {
+        commands.push(Command::Look(look));
+    }
+    commands
+}
+
+fn view_ui(ui: &mut Ui, look: &mut Look) {
     let views = [
         (View::Voxels, "Voxels", "The octree, ray-marched with occupancy as alpha."),
         (View::Mesh, "Mesh", "The posed triangles from the same camera; builds no octree."),
@@ -21,16 +52,25 @@ pub fn ui(ui: &mut Ui, current: &Look, depth: u32, cameras: &[SceneCamera]) -> V
         ),
     ];
     choice(ui, "Show", "What the picture shows.", &mut look.view, &views);
+    let views = [
+        (View::Slice, "Slice", "A plane through the octree, sampled, in the colours of a scale."),
+        (View::ShadowMap, "Shadow map", "What a light sees: distances from it, near ones bright."),
+    ];
+    choice(ui, "", "What the picture shows.", &mut look.view, &views);
+}
+
+/// Voxels or triangles.
+fn surface_ui(ui: &mut Ui, look: &mut Look, depth: u32) {
     let voxels = look.view != View::Mesh;
     ui.add_enabled_ui(voxels, |ui| {
-        level_ui(ui, &mut look, depth);
+        level_ui(ui, look, depth);
         let rules = [
             (AlphaRule::Paper, "Per voxel", "α once a visited voxel: the paper's rule."),
             (AlphaRule::Length, "By length", "1 − (1 − α)^(s/δ) for a path of length s."),
         ];
         choice(ui, "Alpha", "How much light a visited voxel stops.", &mut look.alpha, &rules);
     });
-    color_ui(ui, &mut look);
+    color_ui(ui, look);
     ui.horizontal(|ui| {
         ui.checkbox(&mut look.shaded, "Shaded")
             .on_hover_text("A headlight from the camera; off shows the bare colour.");
@@ -38,11 +78,34 @@ pub fn ui(ui: &mut Ui, current: &Look, depth: u32, cameras: &[SceneCamera]) -> V
             ui.checkbox(&mut look.voxel_edges, "Voxel edges").on_hover_text("Draws the edges of every voxel shown.")
         });
     });
-    commands.extend(camera_ui(ui, current, cameras));
-    if look != *current {
-        commands.push(Command::Look(look));
-    }
-    commands
+}
+
+/// `factor`: the one of the last picture, which is what "auto" has chosen.
+fn exposure_ui(ui: &mut Ui, look: &mut Look, factor: f64) {
+    let mut automatic = look.exposure_stops.is_none();
+    let mut stops = look.exposure_stops.unwrap_or(factor.log2());
+    let tip = "Light is multiplied by 2 to this before it is shown. Auto: what its mean asks for.";
+    control(ui, "Exposure", tip, |ui| {
+        ui.spacing_mut().slider_width = 80.0;
+        let slider = slider(&mut stops, Look::EXPOSURE_STOPS).max_decimals(1);
+        let response = ui.add_enabled(!automatic, slider);
+        ui.checkbox(&mut automatic, "Auto exposure").on_hover_text(tip);
+        response
+    });
+    look.exposure_stops = (!automatic).then_some(stops);
+}
+
+fn shadow_map_ui(ui: &mut Ui, look: &mut Look, lights: &[String]) {
+    control(ui, "Map of", "Whose shadow map is shown.", |ui| {
+        let name = |light: usize| lights.get(light).map_or("none shines", String::as_str);
+        let combo = egui::ComboBox::from_id_salt("light").width(150.0).selected_text(name(look.shadow_map));
+        let list = combo.show_ui(ui, |ui| {
+            for (number, name) in lights.iter().enumerate() {
+                ui.selectable_value(&mut look.shadow_map, number, format!("{number}: {name}"));
+            }
+        });
+        list.response
+    });
 }
 
 fn camera_ui(ui: &mut Ui, look: &Look, cameras: &[SceneCamera]) -> Option<Command> {
@@ -82,6 +145,8 @@ fn color_ui(ui: &mut Ui, look: &mut Look) {
         (ColorBy::Occupancy, "Occupancy", "How much of a voxel is filled, 0 to 1."),
         (ColorBy::Object, "Object", "The object with most voxels in the leaf. Runs a pass of its own."),
         (ColorBy::Level, "Octree level", "The level of the node drawn."),
+        (ColorBy::Radiance, "Radiance", "The light that leaves a voxel, what it emits included."),
+        (ColorBy::Irradiance, "Irradiance", "The light that arrives at a voxel."),
     ];
     let shown = colors.iter().find(|color| color.0 == look.color).map_or("", |color| color.1);
     control(ui, "Colour", "What colours a voxel.", |ui| {
