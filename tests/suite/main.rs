@@ -58,6 +58,7 @@ mod shadow_maps;
 mod skin_rig;
 mod skinning;
 mod skins_hard;
+mod slice;
 mod stage_build;
 mod stage_checks;
 mod stage_rig;
