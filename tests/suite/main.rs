@@ -32,6 +32,7 @@ mod illuminate;
 mod leaks;
 mod light_rig;
 mod light_store;
+mod light_views;
 mod lights;
 mod link;
 mod lit_octree;
