@@ -42,7 +42,7 @@ pub struct Bench {
     json: bool,
     /// Measures pointers, light and sampling too, variant by variant
     #[arg(long)]
-    light: bool,
+    lighting: bool,
     /// Rebuilds before anything is measured
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     warmup: u32,
@@ -107,7 +107,7 @@ impl Bench {
             }
         }
         let cost = |(kernel, samples): (String, Samples)| samples.cost(kernel, bytes_per_ms);
-        let light = if self.light {
+        let light = if self.lighting {
             Some(light::measure(session, &settings, (self.warmup, self.runs), bytes_per_ms)?)
         } else {
             None
