@@ -8,6 +8,7 @@ use crate::data::voxel_cache::TILE_CELLS;
 use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
 use crate::stages::fill::number_objects::OBJECT_MASK;
+use crate::stages::light::gather;
 use crate::stages::{light, mesh, sample, view};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
@@ -50,9 +51,12 @@ pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
     ("EDGE_FROM_PX", view::EDGE_FROM_PX),
     ("EDGE_FULL_PX", view::EDGE_FULL_PX),
     ("EDGE_SHADE", view::EDGE_SHADE),
+    ("GOLDEN_ANGLE", gather::GOLDEN_ANGLE),
     ("INVERSE_PI", std::f64::consts::FRAC_1_PI),
     ("LEAST_DISTANCE_CELLS", light::LEAST_DISTANCE_CELLS),
     ("LEAST_LIGHT", view::LEAST_LIGHT),
+    ("LEAST_STEP", gather::LEAST_STEP),
+    ("PI", std::f64::consts::PI),
     ("SHORT_NORMAL", view::SHORT_NORMAL),
     ("SPREAD_COSINE", light::SPREAD_COSINE),
 ];

@@ -10,6 +10,7 @@ use crate::data::octree::{OctreeLevel, OctreeParams};
 use crate::data::pages::WorkItem;
 use crate::stages::build::LevelParams;
 use crate::stages::build::scan::ScanParams;
+use crate::stages::light::gather::ConeParams;
 use crate::stages::light::illuminate::LightParams;
 use crate::stages::light::inject::InjectParams;
 use crate::stages::light::shadow::{ShadowFrame, ShadowParams};
@@ -91,6 +92,17 @@ pub const MIRRORS: &[Mirror] = &[
     ),
     mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
     mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(
+        ConeParams,
+        "shared/cone.wgsl",
+        "ConeParams",
+        sky,
+        count,
+        widening,
+        start_cells,
+        step_diameters,
+        reach_cells,
+    ),
     mirror!(PointParams, "sample/sample_points.wgsl", "PointParams", direction, pad),
     mirror!(
         ViewParams,

@@ -11,18 +11,18 @@ use octolume::stages::fill::gather_ref::Fragment;
 use proptest::prelude::RngExt;
 
 use crate::device::{gpu, open};
-use crate::lit_octree::LitOctree;
+use crate::lit_octree::LitBuild;
 use crate::octree::aligned;
 use crate::octree_rules::{self as rules, Cell};
 use crate::random::{self, ONE};
 use crate::stage_build::Shape;
 
-fn linked(voxels: &[Fragment], shape: &Shape) -> LitOctree {
-    LitOctree::new(gpu(), voxels, shape, |_, opacity| (DVec3::ONE, opacity))
+fn linked(voxels: &[Fragment], shape: &Shape) -> LitBuild {
+    LitBuild::new(gpu(), voxels, shape, |_, opacity| (DVec3::ONE, opacity))
 }
 
 /// Level and coordinates of the node above every block.
-fn blocks(octree: &LitOctree) -> Vec<link_ref::Block> {
+fn blocks(octree: &LitBuild) -> Vec<link_ref::Block> {
     let params = &octree.built.params;
     let level_of = |block: u32| {
         let starts = |level: &u32| params.levels[*level as usize].first_block <= block;
@@ -32,7 +32,7 @@ fn blocks(octree: &LitOctree) -> Vec<link_ref::Block> {
 }
 
 /// Index of every sparse node by level and coordinates, leaves too.
-fn node_indices(octree: &LitOctree) -> BTreeMap<(u32, Cell), u32> {
+fn node_indices(octree: &LitBuild) -> BTreeMap<(u32, Cell), u32> {
     let children = |(block, (level, cell)): (u32, link_ref::Block)| {
         (0..8).map(move |i| ((level + 1, child(cell, i)), 8 * block + i))
     };
@@ -49,7 +49,7 @@ fn stored(pointers: &[[Option<u32>; 3]]) -> Vec<[u32; 3]> {
     pointers.iter().map(|three| three.map(|pointer| pointer.unwrap_or(NO_BLOCK))).collect()
 }
 
-fn assert_pointers_match(octree: &LitOctree) {
+fn assert_pointers_match(octree: &LitBuild) {
     let blocks = blocks(octree);
     assert!(octree.neighbours == stored(&link_ref::link_blocks(&blocks)));
     let nodes = link_ref::link_nodes(&blocks, octree.built.params.dense_node_count);
@@ -57,7 +57,7 @@ fn assert_pointers_match(octree: &LitOctree) {
 }
 
 /// The node ahead along an axis, by either layout.
-fn hop(octree: &LitOctree, by_node: bool, node: u32, axis: usize) -> u32 {
+fn hop(octree: &LitBuild, by_node: bool, node: u32, axis: usize) -> u32 {
     let dense = octree.built.params.dense_node_count;
     if node == NO_BLOCK {
         return NO_BLOCK;
@@ -79,7 +79,7 @@ const AXIS_ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0]
 
 /// For every occupied sparse node, from every base node whose interpolation it takes part in: the hops
 /// to it, in every axis order, end at the node that its key names.
-fn assert_hops_arrive(octree: &LitOctree) {
+fn assert_hops_arrive(octree: &LitBuild) {
     let params = octree.built.params;
     let index = node_indices(octree);
     for level in params.dense_level + 1..=params.depth {
@@ -160,7 +160,7 @@ fn every_workgroup_size_links_alike() {
     let voxels = random::scene(40, 700, 6);
     let shape = Shape::new(6, 2, Filter::Split);
     let all = [32, 64, 256].map(|size| {
-        let octree = LitOctree::new(&open().with_workgroup_size(size), &voxels, &shape, |_, a| (DVec3::ONE, a));
+        let octree = LitBuild::new(&open().with_workgroup_size(size), &voxels, &shape, |_, a| (DVec3::ONE, a));
         (octree.neighbours, octree.node_neighbours)
     });
     assert!(all.windows(2).all(|pair| pair[0] == pair[1]));

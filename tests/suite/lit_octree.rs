@@ -6,8 +6,10 @@ use glam::DVec3;
 use octolume::data::octree::{FULL_WEIGHT, OctreeBuffers, OctreeParams, PointerLayout, Slot};
 use octolume::gpu::{Gpu, GpuBuffer};
 use octolume::settings::Lookup;
+use octolume::settings::lighting::Opacity;
 use octolume::stages::build::link::{self, Linked};
 use octolume::stages::fill::gather_ref::Fragment;
+use octolume::stages::light::LitOctree;
 use octolume::stages::sample::sample_points::{self, PointParams};
 use octolume::stages::sample::sample_points_ref::{LitNode, LitNodes};
 use octolume::stages::sample::{SampledOctree, Sampler};
@@ -19,7 +21,7 @@ use crate::stage_rig::{World, read, run, upload, world_voxel};
 /// Radiance and opacity of a leaf.
 pub type LeafLight = (DVec3, f64);
 
-pub struct LitOctree {
+pub struct LitBuild {
     pub built: Built,
     pub buffers: OctreeBuffers,
     pub light: GpuBuffer,
@@ -29,7 +31,7 @@ pub struct LitOctree {
     pub nodes: LitNodes,
 }
 
-impl LitOctree {
+impl LitBuild {
     /// Builds and links; `light` says what each occupied leaf is, by its cell and stored occupancy.
     pub fn new(gpu: &Gpu, voxels: &[Fragment], shape: &Shape, light: impl Fn(Cell, f64) -> LeafLight) -> Self {
         let words: Vec<_> = voxels.iter().map(world_voxel).collect();
@@ -42,8 +44,11 @@ impl LitOctree {
         Self { built, buffers, light, neighbours, node_neighbours, nodes }
     }
 
-    /// The same without opacity along the axes, as the isotropic samplers see it.
-    pub fn isotropic(&self) -> LitNodes {
+    /// What `light` holds, as samplers of that opacity see it.
+    pub fn lit(&self, opacity: Opacity) -> LitNodes {
+        if opacity == Opacity::Directional {
+            return self.nodes.clone();
+        }
         let bare = |(key, node): (&(u32, [i32; 3]), &LitNode)| (*key, LitNode { across: None, ..*node });
         LitNodes { depth: self.nodes.depth, nodes: self.nodes.nodes.iter().map(bare).collect() }
     }
@@ -51,6 +56,10 @@ impl LitOctree {
     pub fn sampled(&self, lookup: Lookup) -> SampledOctree {
         SampledOctree::new(&self.built.params, &self.buffers, &self.light, lookup)
             .unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    pub fn read_by_cones(&self) -> LitOctree {
+        LitOctree::new(&self.built.params, &self.buffers).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Samples points of (position, level or width).

@@ -1,6 +1,7 @@
 //! Sampling the lit octree: against the f64 reference and closed forms; every look-up gives the same bits.
 
 use glam::{DVec3, Vec3};
+use octolume::settings::lighting::Opacity;
 use octolume::settings::{Filter, Lookup, Sampling};
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::sample::sample_points_ref::{LitNodes, Sampled};
@@ -9,7 +10,7 @@ use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
 
 use crate::device::{gpu, open};
-use crate::lit_octree::LitOctree;
+use crate::lit_octree::LitBuild;
 use crate::octree::aligned;
 use crate::octree_rules::Cell;
 use crate::random;
@@ -18,6 +19,7 @@ use crate::stage_build::Shape;
 const DEPTH: u32 = 5;
 const CELLS: f32 = 32.0;
 const SAMPLINGS: [Sampling; 3] = [Sampling::Nearest, Sampling::Trilinear, Sampling::Quadrilinear];
+const OPACITIES: [Opacity; 2] = [Opacity::Isotropic, Opacity::Directional];
 const LOOKUPS: [Lookup; 3] = [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers];
 
 /// Some bright, some dark, from the cell alone.
@@ -26,15 +28,15 @@ fn colourful(cell: Cell, opacity: f64) -> (DVec3, f64) {
     (DVec3::new(part(0, 5), part(1, 3), part(2, 7)), opacity)
 }
 
-fn random_octree(seed: u64, count: usize, dense_level: u32) -> LitOctree {
-    LitOctree::new(gpu(), &random::scene(seed, count, DEPTH), &Shape::new(DEPTH, dense_level, Filter::Split), colourful)
+fn random_octree(seed: u64, count: usize, dense_level: u32) -> LitBuild {
+    LitBuild::new(gpu(), &random::scene(seed, count, DEPTH), &Shape::new(DEPTH, dense_level, Filter::Split), colourful)
 }
 
 /// A full grid of opacity `a` and radiance `radiance`.
-fn constant_field(radiance: DVec3, a: f64, dense_level: u32) -> LitOctree {
+fn constant_field(radiance: DVec3, a: f64, dense_level: u32) -> LitBuild {
     let n = CELLS as i64;
     let voxels: Vec<Fragment> = (0..n * n * n).map(|i| aligned([i % n, i / n % n, i / (n * n)])).collect();
-    LitOctree::new(gpu(), &voxels, &Shape::new(DEPTH, dense_level, Filter::Nearest), |_, _| (radiance, a))
+    LitBuild::new(gpu(), &voxels, &Shape::new(DEPTH, dense_level, Filter::Nearest), |_, _| (radiance, a))
 }
 
 /// Anywhere in the grid and around it, faces and centres of cells among them.
@@ -79,8 +81,8 @@ fn direction() -> DVec3 {
 /// Trilinear weights are off by the rounding of p / width − ½, at most 2^-24 · 34 an axis and so three
 /// times that for a product; sums and blends of 16 values add 32 roundings, log2 of the width 2^-21 of a
 /// blend. Under directional opacity pow adds 2^-21 of 1 (WGSL lets it inherit exp2 and log2).
-fn tolerance(largest: f64, directional: bool) -> f64 {
-    let roundings = 3.0 * 34.0 + 32.0 + 8.0 + if directional { 64.0 } else { 0.0 };
+fn tolerance(largest: f64, opacity: Opacity) -> f64 {
+    let roundings = 3.0 * 34.0 + 32.0 + 8.0 + if opacity == Opacity::Directional { 64.0 } else { 0.0 };
     largest.max(1.0) * roundings * 2.0_f64.powi(-24)
 }
 
@@ -91,15 +93,15 @@ fn across_slack(alpha: f64) -> f64 {
     3.0 * 2.0_f64.powi(-24) * (1.0 - alpha).powf(1.0 - w) / w
 }
 
-fn assert_matches(octree: &LitOctree, sampler: &Sampler, points: &[[f32; 4]]) {
-    let lit = if sampler.directional { octree.nodes.clone() } else { octree.isotropic() };
+fn assert_matches(octree: &LitBuild, sampler: &Sampler, points: &[[f32; 4]]) {
+    let lit = octree.lit(sampler.opacity);
     let largest = 0.3 * 16.0;
     let mut seen = 0;
     for (point, found) in points.iter().zip(octree.sample(gpu(), sampler, direction(), points)) {
         let expected = reference(&lit, sampler.sampling, direction().as_vec3().as_dvec3(), point);
         let off = (Vec3::from_slice(&found).as_dvec3() - expected.radiance).abs().max_element();
         let alpha_off = (f64::from(found[3]) - expected.alpha).abs();
-        let limit = tolerance(largest, sampler.directional);
+        let limit = tolerance(largest, sampler.opacity);
         assert!(off.max(alpha_off) < limit, "{sampler:?} {point:?}: {found:?} is not {expected:?}");
         seen += usize::from(expected.alpha > 0.0);
     }
@@ -112,8 +114,8 @@ fn every_sampler_matches_the_reference_at_every_dense_level() {
         let octree = random_octree(50 + u64::from(dense_level), 2500, dense_level);
         for sampling in SAMPLINGS {
             let points = points(60, 3000, sampling);
-            for directional in [false, true] {
-                assert_matches(&octree, &Sampler { sampling, directional, ..Sampler::default() }, &points);
+            for opacity in OPACITIES {
+                assert_matches(&octree, &Sampler { sampling, opacity, ..Sampler::default() }, &points);
             }
         }
     }
@@ -125,10 +127,9 @@ fn ranks_and_pointers_give_the_same_bits() {
         let octree = random_octree(70, count, dense_level);
         for sampling in SAMPLINGS {
             let points = points(80 + count as u64, 20_000, sampling);
-            for directional in [false, true] {
+            for opacity in OPACITIES {
                 let bits = LOOKUPS.map(|lookup| {
-                    let sampled =
-                        octree.sample(gpu(), &Sampler { sampling, lookup, directional }, direction(), &points);
+                    let sampled = octree.sample(gpu(), &Sampler { sampling, lookup, opacity }, direction(), &points);
                     bytemuck::pod_collect_to_vec::<[f32; 4], u32>(&sampled)
                 });
                 assert!(bits[0] == bits[1], "{sampling:?}, pointers of blocks, dense level {dense_level}");
@@ -144,7 +145,7 @@ fn every_workgroup_size_samples_alike() {
     let all = [32, 64, 256].map(|size| {
         let gpu = open().with_workgroup_size(size);
         let voxels = random::scene(91, 800, DEPTH);
-        let octree = LitOctree::new(&gpu, &voxels, &Shape::new(DEPTH, 2, Filter::Split), colourful);
+        let octree = LitBuild::new(&gpu, &voxels, &Shape::new(DEPTH, 2, Filter::Split), colourful);
         octree.sample(&gpu, &Sampler::default(), direction(), &points)
     });
     assert!(all.windows(2).all(|pair| pair[0] == pair[1]));
@@ -168,7 +169,7 @@ fn past_every_face_the_sample_is_zero() {
                 .flat_map(|axis| [-1.0, 1.0].map(|side| (axis, side)))
                 .flat_map(|(axis, side)| [width, 0.5 * width, 3.0e9].map(|by| beyond(axis, side, by)))
                 .collect();
-            let sampler = Sampler { sampling, lookup, directional: false };
+            let sampler = Sampler { sampling, lookup, opacity: Opacity::Isotropic };
             let found = octree.sample(gpu(), &sampler, DVec3::X, &outside);
             assert!(found.iter().all(|sample| *sample == [0.0; 4]), "{sampler:?}, level {level}: {found:?}");
         }
@@ -181,7 +182,7 @@ fn a_lone_voxel_spreads_over_its_neighbours_and_no_further() {
     for _ in 0..10 {
         let cell = [(); 3].map(|()| rng.random_range(0..i64::from(CELLS as u32)));
         let shape = Shape::new(DEPTH, 0, Filter::Nearest);
-        let octree = LitOctree::new(gpu(), &[aligned(cell)], &shape, |_, _| (DVec3::ONE, 1.0));
+        let octree = LitBuild::new(gpu(), &[aligned(cell)], &shape, |_, _| (DVec3::ONE, 1.0));
         let points = points(96, 2000, Sampling::Trilinear).into_iter().map(|p| [p[0], p[1], p[2], DEPTH as f32]);
         let near = |rng: &mut TestRng| cell.map(|c| c as f32 + rng.random_range(-1.0..2.0));
         let points: Vec<_> = points
@@ -191,12 +192,15 @@ fn a_lone_voxel_spreads_over_its_neighbours_and_no_further() {
             }))
             .collect();
         for lookup in LOOKUPS {
-            let sampler = Sampler { sampling: Sampling::Trilinear, lookup, directional: false };
+            let sampler = Sampler { sampling: Sampling::Trilinear, lookup, opacity: Opacity::Isotropic };
             for (point, found) in points.iter().zip(octree.sample(gpu(), &sampler, DVec3::X, &points)) {
                 // The tent function of each axis.
                 let tent = |axis: usize| (1.0 - (f64::from(point[axis]) - cell[axis] as f64 - 0.5).abs()).max(0.0);
                 let expected = tent(0) * tent(1) * tent(2);
-                assert!((f64::from(found[3]) - expected).abs() < tolerance(1.0, false), "{cell:?} {point:?}");
+                assert!(
+                    (f64::from(found[3]) - expected).abs() < tolerance(1.0, Opacity::Isotropic),
+                    "{cell:?} {point:?}"
+                );
                 assert!(expected > 0.0 || found == [0.0; 4]);
             }
         }
@@ -209,7 +213,7 @@ fn a_constant_field_is_constant_at_every_level_and_width() {
     let octree = constant_field(radiance, 0.3, 2);
     let mut rng = random::rng(97);
     for sampling in SAMPLINGS {
-        for directional in [false, true] {
+        for opacity in OPACITIES {
             let inside = |rng: &mut TestRng| {
                 let at = level_or_width(rng, sampling);
                 // Half a node from the border of the coarser level on, every corner is in the grid.
@@ -222,12 +226,16 @@ fn a_constant_field_is_constant_at_every_level_and_width() {
                 [x, y, z, at]
             };
             let points: Vec<_> = (0..4000).map(|_| inside(&mut rng)).collect();
-            let sampler = Sampler { sampling, directional, ..Sampler::default() };
+            let sampler = Sampler { sampling, opacity, ..Sampler::default() };
             for (point, found) in points.iter().zip(octree.sample(gpu(), &sampler, direction(), &points)) {
-                let slack = tolerance(1.0, directional) + if directional { across_slack(0.3) } else { 0.0 };
+                let across = if opacity == Opacity::Directional { across_slack(0.3) } else { 0.0 };
+                let slack = tolerance(1.0, opacity) + across;
                 assert!((f64::from(found[3]) - 0.3).abs() < slack, "{point:?}: {found:?}");
                 let color = Vec3::from_slice(&found).as_dvec3() / f64::from(found[3]);
-                assert!((color / radiance - 1.0).abs().max_element() < tolerance(1.0, false), "{point:?}: {found:?}");
+                assert!(
+                    (color / radiance - 1.0).abs().max_element() < tolerance(1.0, Opacity::Isotropic),
+                    "{point:?}: {found:?}"
+                );
             }
         }
     }
@@ -236,15 +244,15 @@ fn a_constant_field_is_constant_at_every_level_and_width() {
 #[test]
 fn partial_occupancy_divides_out_of_a_constant_radiance() {
     let voxels = random::scene(98, 3000, DEPTH);
-    let octree = LitOctree::new(gpu(), &voxels, &Shape::new(DEPTH, 1, Filter::Split), |_, a| (DVec3::splat(5.0), a));
+    let octree = LitBuild::new(gpu(), &voxels, &Shape::new(DEPTH, 1, Filter::Split), |_, a| (DVec3::splat(5.0), a));
     for sampling in SAMPLINGS {
-        for directional in [false, true] {
+        for opacity in OPACITIES {
             let points = points(99, 4000, sampling);
-            let sampler = Sampler { sampling, directional, ..Sampler::default() };
+            let sampler = Sampler { sampling, opacity, ..Sampler::default() };
             let found = octree.sample(gpu(), &sampler, direction(), &points);
             for sample in found.iter().filter(|sample| sample[3] > 0.0) {
                 let color = f64::from(sample[0]) / f64::from(sample[3]);
-                assert!((color / 5.0 - 1.0).abs() < tolerance(1.0, false), "{sampler:?}: {sample:?}");
+                assert!((color / 5.0 - 1.0).abs() < tolerance(1.0, Opacity::Isotropic), "{sampler:?}: {sample:?}");
             }
         }
     }

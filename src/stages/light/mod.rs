@@ -9,6 +9,8 @@
 
 pub mod average_light;
 pub mod average_light_ref;
+pub mod gather;
+pub mod gather_ref;
 pub mod illuminate;
 pub mod illuminate_ref;
 pub mod inject;

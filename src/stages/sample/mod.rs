@@ -1,15 +1,14 @@
 //! Asks the lit octree for radiance and opacity anywhere (section 4.4): nearest node, trilinear in a
 //! level, or quadrilinear at a width, the nodes found by rank look-up or by pointers as in the paper.
 //!
-//! In: an octree and its `light`, 4 f32 an inner node, then 4 an occupied leaf: mean radiance · opacity,
-//! and opacity; under directional opacity 4 more an inner node: opacity across it along x, y and z.
-//! Out: (radiance · α, α), α being opacity per leaf cell of length. All look-ups give the same bits.
+//! In: an octree and its `light` (data::light). Out: (radiance · α, α), α being opacity per leaf cell of length. All look-ups give the same bits.
 
 pub mod sample_points;
 pub mod sample_points_ref;
 
 use crate::data::octree::{OctreeBuffers, OctreeParams, PointerLayout};
 use crate::gpu::{GpuBuffer, GpuError, Kernel, PassBuilder};
+use crate::settings::lighting::Opacity;
 use crate::settings::{Lookup, Sampling};
 
 pub const FILTER_NEAREST: u32 = 0;
@@ -30,8 +29,8 @@ pub fn pointer_layout(lookup: Lookup) -> Option<PointerLayout> {
 pub struct Sampler {
     pub sampling: Sampling,
     pub lookup: Lookup,
-    /// Opacity along the direction of sight instead of the mean one; `light` must hold it.
-    pub directional: bool,
+    /// `light` must hold it.
+    pub opacity: Opacity,
 }
 
 impl Sampler {
@@ -47,7 +46,7 @@ impl Sampler {
             ("FILTER", filter.into()),
             ("LINKED", flag(self.lookup != Lookup::Ranks)),
             ("NODE_POINTERS", flag(self.lookup == Lookup::NodePointers)),
-            ("DIRECTIONAL", flag(self.directional)),
+            ("DIRECTIONAL", flag(self.opacity == Opacity::Directional)),
         ]
     }
 }
