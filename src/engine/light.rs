@@ -15,6 +15,7 @@ use crate::settings::lighting::{Lighting, Shadows};
 use crate::settings::{Hidden, MotionSettings};
 use crate::stages::fill::gather_emission;
 use crate::stages::fill::place_emission::{self, Emission};
+use crate::stages::light::gather::{self, ConeParams, Cones, Gathered};
 use crate::stages::light::illuminate::{self, LightParams};
 use crate::stages::light::inject::{self, Injected};
 use crate::stages::light::shadow::{ShadowMap, ShadowParams};
@@ -181,10 +182,12 @@ impl Engine {
         let gpu = &self.gpu;
         let direct = self.light.buffers.direct.ensure(gpu, "direct irradiance", bytes)?;
         frame.clear(&direct);
-        let no_map = no_map(gpu, &mut self.light.no_map)?;
         for (number, light) in wanted.lights.iter().enumerate() {
             let is_mapped = lighting.shadows == Shadows::Map;
-            let map = self.light.maps.get(number).filter(|_| is_mapped).unwrap_or(&no_map);
+            let map = match self.light.maps.get(number).filter(|_| is_mapped) {
+                Some(map) => map,
+                None => &no_map(gpu, &mut self.light.no_map)?,
+            };
             let light = LightParams::new(light, &grid, lighting.shadow_offset_voxels);
             illuminate::record(gpu, &mut frame, &octree, &direct, &light, (lighting.shadows, map));
         }
@@ -216,12 +219,38 @@ impl Engine {
         Ok(frame)
     }
 
-    pub(super) fn record_sky(&mut self, _wanted: &Wanted) -> Result<Recorder, EngineError> {
-        Ok(Recorder::default())
+    /// What the sky adds to direct irradiance, through what the octree lets through.
+    pub(super) fn record_sky(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        let direct = self.light.buffers.direct.made("direct irradiance")?;
+        self.record_gather(wanted, Gathered::Sky, &direct)
     }
 
-    pub(super) fn record_bounce(&mut self, _wanted: &Wanted) -> Result<Recorder, EngineError> {
-        Ok(Recorder::default())
+    /// What the light that is stored now brings from leaf to leaf.
+    pub(super) fn record_bounce(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        let bytes = IRRADIANCE_BYTES * u64::from(self.shown.params.leaf_count);
+        let gathered = self.light.buffers.gathered.ensure(&self.gpu, "gathered irradiance", bytes)?;
+        self.record_gather(wanted, Gathered::Bounce, &gathered)
+    }
+
+    fn record_gather(
+        &self,
+        wanted: &Wanted,
+        gathered: Gathered,
+        irradiance: &GpuBuffer,
+    ) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let octree = self.lit_octree()?;
+        let light = self.light.buffers.light.made("light")?;
+        let lighting = &wanted.settings.lighting;
+        let cones = Cones {
+            count: lighting.cones,
+            aperture_degrees: lighting.cone_degrees,
+            start_cells: lighting.shadow_offset_voxels,
+            ..Cones::default()
+        };
+        let params = ConeParams::new(&cones, lighting.sky_nits.map(|channel| channel as f32));
+        gather::record(&self.gpu, &mut frame, &octree, (&light, lighting.opacity), (gathered, &params), irradiance);
+        Ok(frame)
     }
 
     fn injected(&self, wanted: &Wanted, bounced: bool) -> Result<InjectedBuffers, EngineError> {

@@ -46,6 +46,7 @@ mod octree_rules;
 mod parts;
 mod plain_octree;
 mod plan;
+mod plan_light;
 mod prepared;
 mod random;
 mod rays;

@@ -196,14 +196,14 @@ proptest! {
 }
 
 /// An engine on a device of its own, so that counts are its alone.
-struct Counted {
-    engine: Engine,
-    settings: Settings,
+pub struct Counted {
+    pub engine: Engine,
+    pub settings: Settings,
     before: Counters,
 }
 
 impl Counted {
-    fn new(scene: Scene) -> Self {
+    pub fn new(scene: Scene) -> Self {
         let mut settings = Settings::default();
         settings.discretization.grid = 64;
         let prepared = prepared(scene, &settings);
@@ -215,7 +215,7 @@ impl Counted {
 
     /// Runs a frame; the kernels it dispatched must be those of the plan's running rows, and a
     /// frame that runs nothing makes nothing.
-    fn frame(&mut self) -> (FramePlan, Counters) {
+    pub fn frame(&mut self) -> (FramePlan, Counters) {
         self.engine.request(&self.settings, [32, 32]).expect("a request");
         let plan = self.engine.plan().clone();
         self.engine.run_to_end().expect("a frame");
