@@ -105,10 +105,16 @@ impl NodeReader<'_> {
         Ok(word >> (key & 31) & 1 == 1)
     }
 
-    /// Index of the first of eight children; `None` where there are none.
+    /// Index of the first of eight children; `None` where there are none. Above the last dense level
+    /// all are there, in key order, and no pointer is stored.
     pub fn first_child(&self, level: u32, index: u32) -> Result<Option<u32>, GpuError> {
+        let levels = &self.octree.levels;
         if level == self.octree.depth {
             return Ok(None);
+        }
+        if level < self.octree.dense_level {
+            let key = index - levels[level as usize].first_node;
+            return Ok(Some(levels[level as usize + 1].first_node + 8 * key));
         }
         let child = self.word(&self.buffers.first_child, "child pointers", index)?;
         Ok((child != 0).then_some(child))

@@ -28,6 +28,7 @@ mod hard_cases;
 mod hidden;
 mod illegal_files;
 mod illuminate;
+mod inspect;
 mod light_rig;
 mod light_store;
 mod lights;
