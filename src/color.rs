@@ -15,7 +15,10 @@ pub fn srgb_byte(linear: f32) -> u8 {
     (gamma_from_linear(f64::from(linear)) * 255.0).round() as u8
 }
 
-/// Of linear sRGB: what the eye makes of it.
+/// What the eye makes of linear sRGB's red, green and blue.
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Of linear sRGB.
 pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
+    LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b
 }

@@ -1,5 +1,6 @@
 //! The constants that Rust and WGSL share; a shader gets them by `#import constants`.
 
+use crate::color::LUMINANCE;
 use crate::data::light::EMISSION_MAX;
 use crate::data::octree::{ALBEDO_NODE_SCALE, FRACTION_BITS, FULL_WEIGHT, MAX_FRAGMENTS, NO_BLOCK};
 use crate::data::packing::NORMAL_MAX;
@@ -38,6 +39,8 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("SCAN_CHUNK", SCAN_CHUNK),
     ("SHADOWS_MAP", light::SHADOWS_MAP),
     ("SHADOWS_OFF", light::SHADOWS_OFF),
+    ("SLICE_LOGARITHMIC", view::slice::SLICE_LOGARITHMIC),
+    ("SLICE_OCCUPANCY", view::slice::SLICE_OCCUPANCY),
     ("TILE_CELLS", TILE_CELLS as u32),
     ("VIEW_EDGES", view::VIEW_EDGES),
     ("VIEW_LENGTH_RULE", view::VIEW_LENGTH_RULE),
@@ -56,6 +59,9 @@ pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
     ("LEAST_DISTANCE_CELLS", light::LEAST_DISTANCE_CELLS),
     ("LEAST_LIGHT", view::LEAST_LIGHT),
     ("LEAST_STEP", gather::LEAST_STEP),
+    ("LUMINANCE_BLUE", LUMINANCE[2]),
+    ("LUMINANCE_GREEN", LUMINANCE[1]),
+    ("LUMINANCE_RED", LUMINANCE[0]),
     ("PI", std::f64::consts::PI),
     ("SHORT_NORMAL", view::SHORT_NORMAL),
     ("SPREAD_COSINE", light::SPREAD_COSINE),

@@ -20,6 +20,7 @@ use crate::stages::transform::{Matrix3x4, Part, TransformParams};
 use crate::stages::view::march_light::ExposureParams;
 use crate::stages::view::mesh::MeshParams;
 use crate::stages::view::show_shadow::ShowShadowParams;
+use crate::stages::view::slice::SliceParams;
 use crate::stages::view::{GhostColors, Palette, ViewParams};
 
 /// Both sides of a layout, as Rust sees it.
@@ -103,6 +104,7 @@ pub const MIRRORS: &[Mirror] = &[
         step_diameters,
         reach_cells,
     ),
+    mirror!(SliceParams, "view/slice.wgsl", "SliceParams", axis, height_cells, at, flags, least, most, pad,),
     mirror!(PointParams, "sample/sample_points.wgsl", "PointParams", direction, pad),
     mirror!(
         ViewParams,

@@ -44,6 +44,12 @@ impl LitBuild {
         Self { built, buffers, light, neighbours, node_neighbours, nodes }
     }
 
+    /// Other light on the same leaves.
+    pub fn relight(&mut self, gpu: &Gpu, light: impl Fn(Cell, f64) -> LeafLight) {
+        let (nodes, entries) = lit_nodes(&self.built, light);
+        (self.nodes, self.light) = (nodes, upload(gpu, "light", &entries));
+    }
+
     /// What `light` holds, as samplers of that opacity see it.
     pub fn lit(&self, opacity: Opacity) -> LitNodes {
         if opacity == Opacity::Directional {

@@ -14,6 +14,8 @@ pub mod palette;
 pub mod picture;
 pub mod show_shadow;
 pub mod show_shadow_ref;
+pub mod slice;
+pub mod slice_ref;
 
 use bytemuck::{Pod, Zeroable};
 

@@ -1,0 +1,87 @@
+//! The closed furnace: a room whose walls all emit 1 and reflect ρ has radiance 1 / (1 − ρ) everywhere
+//! once light has gone on often enough, however it is built.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use octolume::settings::Filter;
+use octolume::settings::lighting::Opacity;
+use octolume::stages::fill::gather_ref::Fragment;
+use octolume::stages::light::gather::{Cones, Gathered};
+
+use crate::cones::gathered;
+use crate::device::gpu;
+use crate::lit_octree::LitBuild;
+use crate::octree_rules::Cell;
+use crate::random::ONE;
+use crate::stage_build::Shape;
+
+const DEPTH: u32 = 5;
+const CELLS: u32 = 32;
+
+/// Walls of `thickness` voxels around the grid, normals to the inside.
+fn room(thickness: u32) -> Vec<Fragment> {
+    let inward = |c: u32| {
+        if c < thickness {
+            1.0
+        } else if c >= CELLS - thickness {
+            -1.0
+        } else {
+            0.0
+        }
+    };
+    let cells = (0..CELLS.pow(3)).map(|i| [i % CELLS, i / CELLS % CELLS, i / CELLS.pow(2)]);
+    let voxel = |cell: Cell| {
+        let normal = DVec3::from_array(cell.map(inward)).try_normalize()?;
+        let normal = (normal * 511.0 + 511.0).round().to_array().map(|c| c as u32);
+        Some(Fragment { q: cell.map(|c| i64::from(c) * ONE), normal, albedo: [255; 3] })
+    };
+    cells.filter_map(voxel).collect()
+}
+
+/// Radiance of every leaf after so many bounces: L = 1 + ρ · E / π, E gathered by cones.
+fn furnace(albedo: f64, aperture_degrees: f64, opacity: Opacity, bounces: usize) -> BTreeMap<Cell, f64> {
+    let cones = Cones { count: 8, aperture_degrees, ..Cones::default() };
+    let mut octree = LitBuild::new(gpu(), &room(4), &Shape::new(DEPTH, 3, Filter::Nearest), |_, a| (DVec3::ONE, a));
+    let mut radiance = BTreeMap::new();
+    for _ in 0..bounces {
+        let arriving = gathered(&octree, Gathered::Bounce, &cones, opacity);
+        radiance = arriving.into_iter().map(|(cell, e)| (cell, 1.0 + albedo * e.x / PI)).collect();
+        octree.relight(gpu(), |cell, a| (DVec3::splat(radiance[&cell]), a));
+    }
+    radiance
+}
+
+fn spread(radiance: &BTreeMap<Cell, f64>) -> (f64, f64) {
+    radiance.values().fold((f64::INFINITY, 0.0), |(least, most), l| (l.min(least), l.max(most)))
+}
+
+#[test]
+fn a_closed_furnace_glows_evenly_at_narrow_apertures() {
+    for (albedo, aperture, bounces) in [(0.5, 0.0, 10), (0.5, 2.0, 10), (0.8, 2.0, 28)] {
+        let (least, most) = spread(&furnace(albedo, aperture, Opacity::Isotropic, bounces));
+        let closed = 1.0 / (1.0 - albedo);
+        println!("ρ {albedo}, {aperture}°: {least:.4} to {most:.4}, closed form {closed:.4}");
+        // What the bounces after the last would add, and 1 % for what cones leave unseen.
+        let missing = albedo.powi(bounces as i32 + 1) / (1.0 - albedo);
+        assert!(least > 0.99 * closed - missing && most < 1.01 * closed, "{least} to {most}, not {closed}");
+    }
+}
+
+#[test]
+fn wide_cones_leak_out_of_the_furnace_and_never_add_light() {
+    for aperture in [10.0, 30.0, 60.0] {
+        for opacity in [Opacity::Isotropic, Opacity::Directional] {
+            let radiance = furnace(0.5, aperture, opacity, 10);
+            let (least, most) = spread(&radiance);
+            // The faces of the room, away from its edges.
+            let faces =
+                radiance.iter().filter(|(cell, _)| cell[0] == 3 && cell[1..].iter().all(|c| (6..26).contains(c)));
+            let faces: Vec<f64> = faces.map(|(_, l)| *l).collect();
+            let mean = faces.iter().sum::<f64>() / faces.len() as f64;
+            println!("ρ 0.5, {aperture}°, {opacity:?}: faces {mean:.4}, all {least:.4} to {most:.4}, closed form 2");
+            assert!(most < 2.0 * 1.0001, "energy cannot grow: {most}");
+        }
+    }
+}
