@@ -164,7 +164,7 @@ impl App {
         panels::light::ui(ui, panel, &mut self.desk.light)
     }
 
-    fn measurements_ui(&self, ui: &mut Ui) -> Vec<Command> {
+    fn measurements_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let stage = &self.stage;
         let mut commands = section(ui, "Timings", true, |ui| {
             panels::timings::ui(ui, (&stage.timings, &stage.plan), &stage.history, &self.latency);
@@ -173,6 +173,12 @@ impl App {
         commands.extend(section(ui, "Octree", true, |ui| {
             panels::octree::ui(ui, stage.octree.as_ref(), self.settings.look.level);
             Vec::new()
+        }));
+        let inspector = &mut self.desk.inspector;
+        inspector.is_open = false;
+        commands.extend(section(ui, "Node under cursor", false, |ui| {
+            inspector.is_open = true;
+            panels::node::ui(ui, inspector, &self.settings.look)
         }));
         commands.extend(section(ui, "Frame plan", true, |ui| {
             panels::plan::ui(ui, &stage.plan);
