@@ -9,8 +9,10 @@
 //! playing animation always shows something.
 
 mod built_octree;
+mod inspect;
 mod light;
 mod light_views;
+mod node_reader;
 mod picture;
 mod read_voxels;
 mod record;
@@ -36,6 +38,7 @@ use crate::stages::mesh::MeshScene;
 use crate::stages::view::Picture;
 
 pub use built_octree::BuiltOctree;
+pub use inspect::{NodeAddress, NodeFacts, StoredNode};
 use light::{LightOnGpu, LitBy, ShadowedBy};
 use picture::ExactMasks;
 pub use read_voxels::WorldVoxels;

@@ -29,6 +29,7 @@ mod hard_cases;
 mod hidden;
 mod illegal_files;
 mod illuminate;
+mod inspect;
 mod leaks;
 mod light_rig;
 mod light_store;
