@@ -1,4 +1,4 @@
-//! What accuracy costs: which poses are compared, and a row of the resulting table.
+//! What accuracy costs: which poses and lights are compared, and a row of the resulting table.
 //!
 //! *Holes* are cells of the exact posed voxelization that no moved voxel reached; *spill* is cells
 //! that only moved voxels reached.
@@ -6,6 +6,7 @@
 mod cut_outs;
 pub mod posed_triangles;
 pub mod shadows;
+mod triangle;
 
 use serde::Serialize;
 

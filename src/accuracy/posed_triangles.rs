@@ -17,6 +17,7 @@ use obvhs::{Boundable, BvhBuildParams};
 use rayon::prelude::*;
 
 use super::cut_outs::CutOuts;
+use super::triangle::{PosedTriangle, weighted};
 use crate::prepare::{MotionError, Prepared, PreparedObject};
 use crate::scene::{Pose, Primitive};
 use crate::settings::{Hidden, MotionSettings};
@@ -37,14 +38,6 @@ pub struct PosedTriangles<'a> {
     tree: Option<CwBvh>,
     /// Objects that are not at a finite place, a sentence each.
     pub warnings: Vec<String>,
-}
-
-/// Corners in cells from the grid's corner.
-struct PosedTriangle {
-    corners: [DVec3; 3],
-    vertices: [u32; 3],
-    /// Into [`PosedTriangles::surfaces`].
-    surface: u32,
 }
 
 /// A primitive of an object.
@@ -182,44 +175,11 @@ fn tree(triangles: &[PosedTriangle]) -> Option<CwBvh> {
     (!boxes.is_empty()).then(|| build_cwbvh(&boxes, params, &mut Duration::default()))
 }
 
-fn weighted([a, b, c]: [DVec3; 3], place: DVec3) -> DVec3 {
-    a * place.x + b * place.y + c * place.z
-}
-
 impl PosedSurface<'_> {
     fn is_hole(&self, vertices: [u32; 3], place: DVec3) -> bool {
         self.cut_outs.as_ref().is_some_and(|cut_outs| cut_outs.is_hole(vertices, place))
     }
 }
-
-impl PosedTriangle {
-    /// Along its normal.
-    fn doubled_area(&self) -> DVec3 {
-        let [a, b, c] = self.corners;
-        (b - a).cross(c - a)
-    }
-
-    /// Where a line meets it: how far along, and the weights of the corners. Edges belong to it, so that
-    /// nothing gets through between neighbours (Möller and Trumbore).
-    fn meets(&self, origin: DVec3, direction: DVec3) -> Option<(f64, DVec3)> {
-        let [a, b, c] = self.corners;
-        let (ab, ac) = (b - a, c - a);
-        let across = direction.cross(ac);
-        let determinant = ab.dot(across);
-        if determinant == 0.0 {
-            return None;
-        }
-        let from_a = origin - a;
-        let v = from_a.dot(across) / determinant;
-        let beside = from_a.cross(ab);
-        let w = direction.dot(beside) / determinant;
-        let place = DVec3::new(1.0 - v - w, v, w);
-        (place.min_element() >= -EDGE_SLACK).then(|| (ac.dot(beside) / determinant, place))
-    }
-}
-
-/// Share of a triangle by which an edge may be missed: what f64 rounds in the weights.
-const EDGE_SLACK: f64 = 1e-12;
 
 #[cfg(test)]
 mod tests {
