@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use super::cut_outs::CutOuts;
 use super::triangle::{PosedTriangle, weighted};
 use crate::prepare::{MotionError, Prepared, PreparedObject};
-use crate::scene::{Pose, Primitive};
+use crate::scene::Pose;
 use crate::settings::{Hidden, MotionSettings};
 
 /// How far above its triangle a ray starts. Positions of the file are f32, so that surfaces meant to
@@ -100,7 +100,10 @@ impl<'a> PosedTriangles<'a> {
         }
         for (index, (primitive, positions)) in primitives.iter().zip(&posed).enumerate() {
             let surface = self.surfaces.len() as u32;
-            self.triangles.extend(triangles(primitive, positions, surface));
+            self.triangles.extend(primitive.triangles.iter().map(|&vertices| {
+                let corners = vertices.map(|vertex| positions[vertex as usize]);
+                PosedTriangle { corners, vertices, surface }
+            }));
             let normals = scene.posed_normals(&object.object, index, pose);
             self.surfaces.push(PosedSurface { normals, cut_outs: CutOuts::new(prepared, primitive) });
         }
@@ -137,8 +140,10 @@ impl<'a> PosedTriangles<'a> {
     /// do, infinite too.
     pub fn is_hidden(&self, from: DVec3, direction: DVec3, length: f64) -> bool {
         let Some(tree) = &self.tree else { return false };
+        // The tree counts −0 as forward and its inverse as backward, and would miss everything: + 0 turns it round.
+        let along = direction.as_vec3a() + Vec3A::ZERO;
         // Rounded up: the f64 length decides.
-        let ray = Ray::new(from.as_vec3a(), direction.as_vec3a(), 0.0, (length * (1.0 + BOX_SLACK)) as f32);
+        let ray = Ray::new(from.as_vec3a(), along, 0.0, (length * (1.0 + BOX_SLACK)) as f32);
         !tree.ray_traverse_miss(ray, |_, found| {
             let triangle = &self.triangles[tree.primitive_indices[found] as usize];
             let is_met = triangle.meets(from, direction).is_some_and(|(t, place)| {
@@ -148,17 +153,6 @@ impl<'a> PosedTriangles<'a> {
             if is_met { 0.0 } else { f32::INFINITY }
         })
     }
-}
-
-fn triangles<'p>(
-    primitive: &'p Primitive,
-    positions: &'p [DVec3],
-    surface: u32,
-) -> impl Iterator<Item = PosedTriangle> + 'p {
-    primitive.triangles.iter().map(move |&vertices| {
-        let corners = vertices.map(|vertex| positions[vertex as usize]);
-        PosedTriangle { corners, vertices, surface }
-    })
 }
 
 fn tree(triangles: &[PosedTriangle]) -> Option<CwBvh> {
@@ -207,7 +201,9 @@ mod tests {
             let at = f64::from(step) / 100.0 - 2.0;
             let from = DVec3::new(16.0 + at, 0.0, 16.0 + at);
             let expected = at.abs() <= 1.0;
-            assert_eq!(square.is_hidden(from, DVec3::Y, f64::INFINITY), expected, "{at}");
+            for up in [DVec3::Y, -DVec3::NEG_Y, DVec3::new(-1e-9, 1.0, 1e-9)] {
+                assert_eq!(square.is_hidden(from, up, f64::INFINITY), expected, "{at} {up}");
+            }
             assert!(!square.is_hidden(from, DVec3::NEG_Y, f64::INFINITY));
         }
         let below = DVec3::new(16.3, 9.0, 15.8);

@@ -40,7 +40,7 @@ pub fn spread(triangles: &PosedTriangles, count: usize) -> Vec<SurfacePoint> {
     let point = |index: usize| {
         let along = total * (index as f64 + 0.5) / count as f64;
         let triangle = ends.partition_point(|&end| end <= along);
-        let [u, v] = SQUARE_STEPS.map(|step| (index as f64 * step).fract());
+        let [u, v] = SQUARE_STEPS.map(|step| (0.5 + index as f64 * step).fract());
         let [u, v] = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
         if triangle < triangles.len() { triangles.point(triangle, DVec3::new(1.0 - u - v, u, v)) } else { None }
     };
@@ -222,7 +222,7 @@ impl Sums {
             without_leaf: self.without_leaf,
             turned_away: self.turned_away,
             lit_percent: percent(self.lit),
-            mean_error_percent: 100.0 * mean(self.error),
+            mean_error_percent: mean(100.0 * self.error),
             lost_percent: percent(self.lost),
             leaked_percent: percent(self.leaked),
             open_lux: mean(self.open),
