@@ -18,6 +18,7 @@ mod read_voxels;
 mod record;
 mod report;
 mod run;
+mod sample;
 mod scene_on_gpu;
 mod steps;
 
@@ -310,6 +311,14 @@ impl Engine {
     /// Forgets results so that the next frame makes them again, as [`bench`](crate) needs.
     pub fn invalidate(&mut self) {
         self.done = Done::default();
+    }
+
+    /// Forgets light, shadow maps and pointers alone.
+    pub fn invalidate_light(&mut self) {
+        self.done.light = None;
+        self.done.shadows = None;
+        self.done.emission = false;
+        self.done.links.clear();
     }
 
     /// Kernel times of the results that are there: the last build, and the last picture of it.

@@ -12,9 +12,9 @@ const SECTIONS: [(&str, usize); 8] = [
     ("Transform and split", 12),
     ("Skinning and animation", 9),
     ("Accumulation", 5),
-    ("Octree and neighbour pointers", 5),
+    ("Octree and neighbour pointers", 9),
     ("Averaging", 2),
-    ("Rays and cones", 3),
+    ("Rays and cones", 12),
     ("Camera, window, device", 16),
 ];
 

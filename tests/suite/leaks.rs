@@ -40,7 +40,7 @@ fn transmission(wall: &LitBuild, opacity: Opacity, level: u32, phase: f32) -> f6
     let nodes = 1 << level;
     let width = (CELLS / nodes) as f32;
     let middle = (0.5 + (nodes / 2) as f32) * width;
-    let points: Vec<_> = (0..nodes).map(|i| [(i as f32 + phase) * width, middle, middle, level as f32]).collect();
+    let points: Vec<_> = (0..=nodes).map(|i| [(i as f32 + phase) * width, middle, middle, level as f32]).collect();
     let sampler = Sampler { sampling: Sampling::Trilinear, lookup: Lookup::Ranks, opacity };
     let samples = wall.sample(gpu(), &sampler, DVec3::X, &points);
     samples.iter().map(|sample| (1.0 - f64::from(sample[3])).powf(width.into())).product()
@@ -86,10 +86,11 @@ fn walls_let_through_what_the_closed_forms_say_at_every_level() {
 }
 
 #[test]
-fn an_aligned_wall_is_opaque_along_its_axis_at_every_level_and_the_leaves_of_a_thin_one_are_not_in_between() {
+fn an_aligned_wall_is_opaque_along_its_axis_at_every_level() {
     let thin = wall(1, 0);
     for level in 0..=DEPTH {
-        assert_eq!(transmission(&thin, Opacity::Directional, level, 0.5), 0.0);
+        // Of what stops all, 2^-24 is left.
+        assert!(transmission(&thin, Opacity::Directional, level, 0.5) < 1e-6);
         // The paper's way: the whole grid's worth of air thins it out.
         let width = f64::from(1_u32 << (DEPTH - level));
         let isotropic = transmission(&thin, Opacity::Isotropic, level, 0.5);

@@ -33,6 +33,7 @@ mod inspect;
 mod leaks;
 mod light_rig;
 mod light_store;
+mod light_views;
 mod lights;
 mod link;
 mod lit_octree;

@@ -15,6 +15,9 @@ pub const FILTER_NEAREST: u32 = 0;
 pub const FILTER_TRILINEAR: u32 = 1;
 pub const FILTER_QUADRILINEAR: u32 = 2;
 
+/// Along an axis a node lets through no less than this, the last place of an f32 opacity.
+pub const LEAST_THROUGH: f64 = 1.0 / (1 << 24) as f64;
+
 /// The pointers that a look-up follows, which the octree must then hold.
 pub fn pointer_layout(lookup: Lookup) -> Option<PointerLayout> {
     match lookup {

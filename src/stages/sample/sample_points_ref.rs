@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, IVec3};
 
+use super::LEAST_THROUGH;
+
 /// What a node holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LitNode {
@@ -53,8 +55,9 @@ impl LitNodes {
         let alpha = match node.across {
             None => node.opacity,
             Some(across) => {
-                let whole = (direction * direction).dot(across);
-                1.0 - (1.0 - whole).max(0.0).powf(1.0 / self.width_cells(level))
+                // Optical depths of the axes mix by the squared direction, over the node's width.
+                let depth = |axis: usize| -(1.0 - across[axis]).max(LEAST_THROUGH).ln() * direction[axis].powi(2);
+                1.0 - (-(depth(0) + depth(1) + depth(2)) / self.width_cells(level)).exp()
             }
         };
         Sampled { radiance: node.radiance / node.opacity * alpha, alpha }
@@ -107,7 +110,13 @@ mod tests {
         let node = LitNode { radiance: DVec3::splat(0.2), opacity: 0.1, across: Some(across) };
         let lit = LitNodes { depth: 1, nodes: BTreeMap::from([((0, [0; 3]), node)]) };
         let along = |direction: DVec3| lit.nearest(0, DVec3::ONE, direction);
-        assert_eq!([DVec3::X, DVec3::Y, DVec3::Z].map(|d| along(d).alpha), [0.5, 0.0, 1.0]);
-        assert_eq!(along(DVec3::Z).radiance, DVec3::splat(2.0));
+        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
+        assert!(near(along(DVec3::X).alpha, 0.5) && along(DVec3::Y).alpha == 0.0);
+        // 2^-12 of each of two cells, 2^-24 in all.
+        assert!(near(along(DVec3::Z).alpha, 1.0 - 1.0 / 4096.0));
+        assert!(near(along(DVec3::Z).radiance.x, 2.0 * along(DVec3::Z).alpha));
+        // At 45° between x, which stops ¾, and z, which stops all, even the least share of z stops most.
+        let slanted = along(DVec3::new(1.0, 0.0, 1.0).normalize()).alpha;
+        assert!(near(slanted, 1.0 - (0.25_f64.sqrt() / 4096.0).sqrt()));
     }
 }
