@@ -1,9 +1,10 @@
 //! Octolume: see how a dynamic scene becomes voxels, and what their accuracy costs.
 //!
 //! ```text
-//! glTF file ──► Scene ──► VoxelCache ──► VoxelPages ──► Octree ──► view
-//!           scene::load  stages::voxelize  stages::transform  stages::build   stages::view
-//!                        (once per object)  (per frame)        fill, average
+//! glTF file ──► Scene ──► VoxelCache ──► VoxelPages ──► Octree ──► light ──► view
+//!         scene::load  stages::voxelize  ::transform  ::build   ::light   ::view
+//!                     (once per object)  (per frame)  ::fill    ::sample
+//!                                                     ::averaging
 //! ```
 //!
 //! Modules in the order of the flow. The core knows nothing of egui: window and command line

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::App;
+use super::inspector::Pin;
 use super::playback;
 use crate::scene::OrbitCamera;
 use crate::settings::{Discretization, Lighting, Look, MotionSettings, Visibility};
@@ -19,6 +20,8 @@ pub enum Command {
     Discretize(Discretization),
     Look(Look),
     Light(Lighting),
+    /// Another node of the octree is looked at.
+    Pin(Pin),
     /// Another clip or turn, or a scrub of the timeline.
     Move(MotionSettings),
     TogglePlaying,
@@ -58,6 +61,7 @@ impl App {
             Command::CancelLoading => self.cancel_loading(),
             Command::Discretize(discretization) => self.settings.discretization = discretization,
             Command::Look(look) => self.settings.look = look,
+            Command::Pin(pin) => self.desk.inspector.apply(pin),
             Command::Light(lighting) => self.settings.lighting = lighting,
             Command::Camera(camera) => {
                 self.settings.look.camera = Some(camera);

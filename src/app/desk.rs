@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::background::{Background, Outcome};
 use super::commands::Command;
+use super::inspector::Inspector;
 use super::panels::top_bar::Unfolded;
 use super::panels::tree::TreeState;
 use crate::lights::LightSource;
@@ -17,6 +18,7 @@ pub struct Desk {
     pub tree: TreeState,
     /// The light whose controls are shown.
     pub light: Option<LightSource>,
+    pub inspector: Inspector,
     dialog: Option<Background<Option<PathBuf>>>,
 }
 
@@ -28,6 +30,7 @@ impl Default for Desk {
             unfolded: Unfolded { controls: true, tree: false, measurements: true },
             tree: TreeState::default(),
             light: None,
+            inspector: Inspector::default(),
             dialog: None,
         }
     }

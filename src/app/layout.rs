@@ -106,7 +106,6 @@ impl App {
 
     fn controls_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let settings = &self.settings;
-        let lights = self.shining();
         let grid = self.scene.as_ref().map(|ready| &ready.prepared.grid);
         let mut commands = section(ui, "Scene", true, |ui| {
             let scene = self.scene.as_ref().map(|ready| &*ready.prepared);
@@ -117,18 +116,25 @@ impl App {
         }));
         commands
             .extend(section(ui, "Filter", true, |ui| panels::filter::ui(ui, settings, self.stage.accuracy.as_ref())));
-        commands.extend(section(ui, "View", true, |ui| {
-            let cameras = self.scene.as_ref().map_or(&[][..], |ready| &ready.prepared.scene.cameras);
-            let depth = grid.map_or(settings.discretization.depth(), |grid| grid.depth);
-            let exposure = self.stage.exposure;
-            let panel = ViewPanel { look: &settings.look, depth, cameras, lights: &lights, exposure };
-            let commands = panels::view::ui(ui, panel);
-            panels::control(ui, "Save to", "Folder that screenshots are written to.", |ui| {
-                ui.add(TextEdit::singleline(&mut self.screenshots.folder).desired_width(f32::INFINITY))
-            });
-            commands
-        }));
         commands.extend(section(ui, "Light", false, |ui| self.light_ui(ui)));
+        commands.extend(section(ui, "View", true, |ui| self.view_ui(ui)));
+        commands
+    }
+
+    fn view_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+        let settings = &self.settings;
+        let prepared = self.prepared();
+        let panel = ViewPanel {
+            look: &settings.look,
+            depth: prepared.map_or(settings.discretization.depth(), |prepared| prepared.grid.depth),
+            cameras: prepared.map_or(&[][..], |prepared| &prepared.scene.cameras),
+            lights: &self.shining(),
+            exposure: self.stage.exposure,
+        };
+        let commands = panels::view::ui(ui, panel);
+        panels::control(ui, "Save to", "Folder that screenshots are written to.", |ui| {
+            ui.add(TextEdit::singleline(&mut self.screenshots.folder).desired_width(f32::INFINITY))
+        });
         commands
     }
 
@@ -158,7 +164,7 @@ impl App {
         panels::light::ui(ui, panel, &mut self.desk.light)
     }
 
-    fn measurements_ui(&self, ui: &mut Ui) -> Vec<Command> {
+    fn measurements_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let stage = &self.stage;
         let mut commands = section(ui, "Timings", true, |ui| {
             panels::timings::ui(ui, (&stage.timings, &stage.plan), &stage.history, &self.latency);
@@ -167,6 +173,12 @@ impl App {
         commands.extend(section(ui, "Octree", true, |ui| {
             panels::octree::ui(ui, stage.octree.as_ref(), self.settings.look.level);
             Vec::new()
+        }));
+        let inspector = &mut self.desk.inspector;
+        inspector.is_open = false;
+        commands.extend(section(ui, "Node under cursor", false, |ui| {
+            inspector.is_open = true;
+            panels::node::ui(ui, inspector, &self.settings.look)
         }));
         commands.extend(section(ui, "Frame plan", true, |ui| {
             panels::plan::ui(ui, &stage.plan);

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::inspector::Pin;
 use super::journal::Severity;
 use super::loader::{Ready, same_voxels};
 use super::panels::tree::TreeState;
@@ -88,6 +89,7 @@ impl App {
             self.find_named(&prepared.scene);
             self.desk.tree = TreeState::default();
             self.desk.light = None;
+            self.desk.inspector.apply(Pin::Release);
             self.undo = Undo::default();
             self.name_window(ctx, prepared);
             let name = &prepared.scene.name;

@@ -4,10 +4,12 @@ use egui::{Align2, FontId, Rect, Ui, vec2};
 
 use super::exact_job::Posed;
 use super::journal::Severity;
+use super::node_overlay::{self, Projection};
 use super::{App, PROGRESS_STEP, exact_job, legend, theme, viewport};
 use crate::gpu::GpuTexture;
 use crate::scene::OrbitCamera;
 use crate::settings::{Settings, View};
+use crate::stages::view::camera::PixelRays;
 
 impl App {
     pub(super) fn picture_ui(&mut self, ui: &mut Ui, clock_secs: f64) {
@@ -28,6 +30,7 @@ impl App {
         self.save_screenshot(ui.ctx(), &settings, full_px);
         let response = self.viewport.ui(ui, &self.render, self.stage.picture());
         let commands = viewport::commands(ui, &response, &camera);
+        self.inspect(ui, &response);
         let moved = !commands.is_empty();
         commands.into_iter().for_each(|command| self.apply(ui.ctx(), command, clock_secs));
         if moved {
@@ -129,6 +132,19 @@ impl App {
         let size = format!("{} × {} px{coarse}", size_px[0], size_px[1]);
         legend::caption(&painter, rect.right_bottom() + vec2(-14.0, -10.0), Align2::RIGHT_BOTTOM, &size);
         let values = legend::Values { exposure: self.stage.exposure, range: self.stage.value_range };
+        self.paint_node(&painter, rect, full_px);
         legend::paint(&painter, rect, &self.settings.look, values);
+    }
+
+    /// The node that is looked at, over the picture, where its pointers are wanted.
+    fn paint_node(&self, painter: &egui::Painter, rect: Rect, full_px: [u32; 2]) {
+        let inspector = &self.desk.inspector;
+        let is_wanted = inspector.is_open && self.settings.look.pointers && !full_px.contains(&0);
+        let facts = inspector.facts().flatten().filter(|_| is_wanted);
+        if let (Some(facts), Some(prepared)) = (facts, self.prepared()) {
+            let rays = PixelRays::new(&self.camera(full_px), &prepared.grid, full_px);
+            let projection = Projection { rays, rect, depth: prepared.grid.depth };
+            node_overlay::paint(painter, &projection, facts);
+        }
     }
 }

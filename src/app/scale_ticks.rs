@@ -46,7 +46,7 @@ fn multiples(low: f64, high: f64) -> Vec<f64> {
 }
 
 /// Three significant digits, with a power of ten where there would be many zeros.
-fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     let power = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
     if (-3..6).contains(&power) {
         let decimals = (2 - power).clamp(0, 6) as usize;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::history::FrameHistory;
 use crate::engine::{AccuracyReport, Engine, EngineError, EngineState, OctreeReport};
 use crate::gpu::{Gpu, GpuTexture, KernelTiming};
-use crate::plan::FramePlan;
+use crate::plan::{FramePlan, Pass};
 use crate::prepare::{ExactVoxels, Prepared};
 use crate::settings::Settings;
 
@@ -23,6 +23,10 @@ pub struct Stage {
     pub timings: Vec<KernelTiming>,
     /// Of the last frame that had anything to do.
     pub plan: FramePlan,
+    /// Counts the results that were finished.
+    pub results: u64,
+    /// Counts those of them that changed the octree, its pointers or its light.
+    pub builds: u64,
     /// Of the last octree that was finished.
     pub octree: Option<OctreeReport>,
     pub accuracy: Option<AccuracyReport>,
@@ -61,6 +65,8 @@ impl Stage {
             history: FrameHistory::default(),
             timings: Vec::new(),
             plan: FramePlan::default(),
+            results: 0,
+            builds: 0,
             octree: None,
             accuracy: None,
             exposure: 1.0,
@@ -163,6 +169,8 @@ impl Stage {
     /// Takes down what the frame has cost.
     fn finish(&mut self) {
         self.take_results();
+        let building = [Pass::MarkLeaves, Pass::LinkNodes, Pass::AverageLight, Pass::Bounces];
+        self.builds += u64::from(building.into_iter().any(|pass| self.plan.runs(pass)));
         self.history.push(&self.timings, &self.plan);
         let view = self.timings.iter().filter(|timing| timing.kernel.starts_with("view/"));
         let view_ms: f64 = view.map(|timing| timing.ms).sum();
@@ -173,6 +181,7 @@ impl Stage {
     }
 
     fn take_results(&mut self) {
+        self.results += 1;
         self.timings = self.engine.timings();
         self.octree = self.engine.octree_report();
         self.accuracy = self.engine.accuracy();

@@ -22,6 +22,10 @@ pub const HOLE: Color32 = Color32::from_rgb(236, 84, 74);
 /// Cells that moved voxels reached outside the exact set.
 pub const SPILL: Color32 = Color32::from_rgb(92, 148, 245);
 
+/// Along x, y and z.
+pub const AXES: [Color32; 3] =
+    [Color32::from_rgb(255, 120, 110), Color32::from_rgb(130, 210, 120), Color32::from_rgb(110, 160, 255)];
+
 /// Words behind nodes of the scene tree.
 pub const TAG_JOINT: Color32 = Color32::from_rgb(176, 148, 226);
 pub const TAG_CAMERA: Color32 = Color32::from_rgb(120, 170, 230);

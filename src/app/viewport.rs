@@ -88,7 +88,8 @@ pub fn commands(ui: &Ui, response: &Response, camera: &OrbitCamera) -> Vec<Comma
             moved.zoom(factor);
         }
     }
-    if response.double_clicked() {
+    // Alt and a click pin a node.
+    if response.double_clicked() && !ui.input(|input| input.modifiers.alt) {
         return vec![Command::FrameAll];
     }
     if moved == *camera { Vec::new() } else { vec![Command::Camera(moved)] }

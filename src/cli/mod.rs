@@ -13,6 +13,7 @@ mod light_values;
 mod lighting_options;
 mod look_options;
 mod make;
+mod node;
 mod options;
 mod output;
 mod plan;
@@ -51,6 +52,7 @@ enum Command {
     Render(render::Render),
     Info(info::Info),
     Voxels(voxels::Voxels),
+    Node(node::Node),
     Plan(plan::Plan),
     Bench(bench::Bench),
     Accuracy(accuracy::Accuracy),
@@ -70,6 +72,7 @@ pub fn run(arguments: Arguments) -> anyhow::Result<()> {
         Some(Command::Render(render)) => render.run(),
         Some(Command::Info(info)) => info.run(),
         Some(Command::Voxels(voxels)) => voxels.run(),
+        Some(Command::Node(node)) => node.run(),
         Some(Command::Plan(plan)) => plan.run(),
         Some(Command::Bench(bench)) => bench.run(),
         Some(Command::Accuracy(accuracy)) => accuracy.run(),

@@ -38,6 +38,14 @@ pub fn vector(text: &str) -> Result<[f64; 3], String> {
         .ok_or_else(|| "three finite numbers as X,Y,Z are wanted".to_owned())
 }
 
+/// `X,Y,Z`, a cell of a grid.
+pub fn cell(text: &str) -> Result<[u32; 3], String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    numbers
+        .and_then(|numbers| <[u32; 3]>::try_from(numbers).ok())
+        .ok_or_else(|| "three whole numbers from 0 as X,Y,Z are wanted".to_owned())
+}
+
 /// A picture's size in pixels, written `WxH`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size(pub [u32; 2]);

@@ -4,10 +4,10 @@ use super::steps::Stored;
 use super::{Engine, EngineError, Wanted, missing};
 use crate::gpu::Recorder;
 use crate::settings::{ColorBy, Settings, SliceValue, View};
+use crate::stages::sample::SampledOctree;
 use crate::stages::view::camera::PixelRays;
-use crate::stages::view::march_light;
-use crate::stages::view::show_shadow;
 use crate::stages::view::{Palette, Picture, ViewParams};
+use crate::stages::view::{march_light, show_shadow, slice};
 
 /// The mean light of a scene is shown as this without an exposure of one's own: mean voxels are mostly
 /// in shadow, so that what is lit comes out bright.
@@ -87,10 +87,22 @@ impl Engine {
 
     pub(super) fn record_slice(
         &mut self,
-        _frame: &mut Recorder,
-        _wanted: &Wanted,
-        _drawn: Drawn<'_>,
+        frame: &mut Recorder,
+        wanted: &Wanted,
+        (rays, picture): Drawn<'_>,
     ) -> Result<(), EngineError> {
+        let look = &wanted.settings.look;
+        let octree = &self.shown;
+        let light = self.light.stored(stored(&wanted.settings)).made("light")?;
+        let sampled = SampledOctree::new(&octree.params, &octree.buffers, &light, look.slice.lookup)?;
+        let view = ViewParams::new(rays, look, octree.params.depth);
+        let range = self.slice_range(&wanted.settings);
+        let palette = Palette::new(match look.slice.value {
+            SliceValue::Radiance => ColorBy::Radiance,
+            SliceValue::Irradiance => ColorBy::Irradiance,
+            SliceValue::Occupancy => ColorBy::Occupancy,
+        });
+        slice::record(&self.gpu, frame, &sampled, (&look.slice, range), (&view, &palette), picture);
         Ok(())
     }
 

@@ -131,7 +131,7 @@ impl Engine {
     }
 
     /// The camera that is set, else the file's first, else one that frames everything.
-    fn camera(&self, wanted: &Wanted) -> Result<OrbitCamera, EngineError> {
+    pub(super) fn camera(&self, wanted: &Wanted) -> Result<OrbitCamera, EngineError> {
         if let Some(camera) = wanted.settings.look.camera {
             return Ok(camera);
         }

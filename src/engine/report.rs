@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::built_octree::BuiltOctree;
 use super::{Engine, other_filter};
-use crate::data::octree::FULL_WEIGHT;
+use crate::data::light::{IRRADIANCE_BYTES, light_bytes};
+use crate::data::octree::{FULL_WEIGHT, PointerLayout};
 use crate::settings::Filter;
 
 /// One level of the octree.
@@ -33,6 +34,10 @@ pub struct OctreeReport {
     pub clipped_weight: u64,
     pub excess_weight: u64,
     pub bytes: u64,
+    /// Light of all nodes and irradiance of all leaves; 0 while there is none.
+    pub light_bytes: u64,
+    /// What neighbour pointers take, whether they are made or not: stored once a block, and once a node.
+    pub pointer_bytes: [u64; 2],
 }
 
 /// Moved voxels against the exact voxelization of the same pose.
@@ -95,8 +100,19 @@ impl Engine {
             clipped_weight: self.shown.clipped_weight,
             excess_weight: kept_weight - self.shown.occupancy,
             bytes: levels.iter().map(|level| level.bytes).sum(),
+            light_bytes: self.light_bytes(),
+            pointer_bytes: [PointerLayout::Blocks, PointerLayout::Nodes]
+                .map(|layout| 4 * layout.words(&self.shown.params)),
             levels,
         })
+    }
+
+    fn light_bytes(&self) -> u64 {
+        let Some(lit_by) = &self.done.light else { return 0 };
+        let leaves = u64::from(self.shown.params.leaf_count);
+        let b = &self.light.buffers;
+        let a_leaf = [&b.direct, &b.gathered, &b.leaf_emission].into_iter().filter(|slot| slot.get().is_some()).count();
+        light_bytes(&self.shown.params, lit_by.lighting.opacity) + IRRADIANCE_BYTES * leaves * a_leaf as u64
     }
 
     /// Both filters side by side, as far as they are built for the pose that is shown.

@@ -58,21 +58,34 @@ impl Gpu {
     /// All bytes of the finest level, rows from the top without padding. Blocks until submitted work
     /// is done.
     pub fn read_texture(&self, texture: &GpuTexture) -> Result<Vec<u8>, GpuError> {
+        self.read_texels(texture, [0, 0], texture.size_px())
+    }
+
+    /// The same of a part: `origin_px` is its upper left corner.
+    pub fn read_texels(
+        &self,
+        texture: &GpuTexture,
+        origin_px: [u32; 2],
+        [width, height]: [u32; 2],
+    ) -> Result<Vec<u8>, GpuError> {
         let texture = texture.raw();
         let texel_bytes = texture.format().block_copy_size(None).unwrap_or(4);
-        let row_bytes = texture.width() * texel_bytes;
+        let row_bytes = width * texel_bytes;
         let pitch = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let bytes = u64::from(pitch) * u64::from(texture.height());
+        let bytes = u64::from(pitch) * u64::from(height);
         let buffer = self.uncounted_buffer("texture read-back", bytes, wgpu::BufferUsages::empty())?;
         self.checked("texture read-back", || {
             let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(pitch), rows_per_image: None };
             let into = wgpu::TexelCopyBufferInfo { buffer: buffer.raw(), layout };
-            encoder.copy_texture_to_buffer(texture.as_image_copy(), into, texture.size());
+            let origin = wgpu::Origin3d { x: origin_px[0], y: origin_px[1], z: 0 };
+            let part = wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() };
+            let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+            encoder.copy_texture_to_buffer(part, into, size);
             self.queue.submit([encoder.finish()]);
         })?;
         let padded: Vec<u8> = self.read(&buffer, 0..buffer.bytes())?;
-        let rows = padded.chunks(pitch as usize).take(texture.height() as usize);
+        let rows = padded.chunks(pitch as usize).take(height as usize);
         Ok(rows.flat_map(|row| &row[..row_bytes as usize]).copied().collect())
     }
 }

@@ -7,6 +7,7 @@ mod files;
 mod hidden;
 mod lights;
 mod models;
+mod node;
 mod pictures;
 mod reports;
 mod scenes;

@@ -6,6 +6,7 @@ use egui::{Button, Role, ScrollArea, Ui, WidgetInfo};
 use super::light_editor::Editor;
 use super::{light_method, nothing};
 use crate::app::commands::Command;
+use crate::app::scale_ticks::short;
 use crate::app::theme;
 use crate::lights::{KnownLight, LightSource, Shines};
 use crate::scene::{LightKind, OrbitCamera, Scene};
@@ -72,7 +73,7 @@ fn row_ui(
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let (text, color) = match cause(known.shines) {
-                None => (format!("{:.4} {}", known.light.intensity, short_unit(known.light.kind)), theme::WEAK),
+                None => (format!("{} {}", short(known.light.intensity), short_unit(known.light.kind)), theme::WEAK),
                 Some(cause) => {
                     (cause.to_owned(), if known.shines == Shines::Nowhere { theme::WARNING } else { theme::WEAK })
                 }

@@ -9,6 +9,7 @@ mod light_editor;
 mod light_method;
 pub mod log;
 pub mod memory;
+pub mod node;
 mod node_facts;
 pub mod octree;
 pub mod plan;

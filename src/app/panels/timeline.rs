@@ -1,11 +1,12 @@
 //! The clock of the scene: clip, play, step, scrub, loop, speed; and the turn of everything.
 
-use egui::{Color32, ComboBox, DragValue, Slider, Ui};
+use egui::{ComboBox, DragValue, Slider, Ui};
 
 use super::icon::{self, Icon};
 use super::named_number;
 use crate::app::commands::Command;
 use crate::app::playback::Playback;
+use crate::app::theme;
 use crate::scene::Clip;
 use crate::settings::MotionSettings;
 
@@ -115,12 +116,8 @@ fn turn_and_scrub_ui(
 
 fn turn_ui(ui: &mut Ui, motion: &MotionSettings) -> Option<Command> {
     let mut turn = motion.turn_degrees;
-    let axes = [
-        ("Turn z", Color32::from_rgb(110, 160, 255)),
-        ("Turn y", Color32::from_rgb(130, 210, 120)),
-        ("Turn x", Color32::from_rgb(255, 120, 110)),
-    ];
-    for (degrees, (name, color)) in turn.iter_mut().rev().zip(axes) {
+    let axes = ["Turn x", "Turn y", "Turn z"].into_iter().zip(theme::AXES);
+    for (degrees, (name, color)) in turn.iter_mut().zip(axes).rev() {
         let drag = DragValue::new(degrees).speed(0.5).range(-360.0..=360.0).max_decimals(2).suffix("°");
         let response =
             ui.add(drag).on_hover_text("Turns the whole scene about its centre: a rigid motion of everything.");

@@ -134,7 +134,12 @@ impl ShadowMap {
                 view_formats: &[],
             })
         };
-        let distances = texture("shadow map", FORMAT, params.count.max(1), Usage::TEXTURE_BINDING | Usage::COPY_SRC)?;
+        let distances = texture(
+            "shadow map",
+            FORMAT,
+            params.count.max(1),
+            Usage::TEXTURE_BINDING | Usage::COPY_SRC | Usage::COPY_DST,
+        )?;
         let view = distances.raw().create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()

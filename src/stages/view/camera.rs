@@ -73,4 +73,51 @@ impl PixelRays {
             widening: 2.0 * self.direction_y.length() / height / steepness,
         }
     }
+
+    /// The inverse of [`Self::ray`]: where a point of the grid is in the picture, in pixels, and its depth
+    /// along the view direction, cells. `None` behind the eye, or so close to its plane that it is nowhere.
+    pub fn project(&self, point_cells: DVec3) -> Option<([f64; 2], f64)> {
+        const LEAST_DEPTH_CELLS: f64 = 1e-3;
+        let from_eye = point_cells - (self.origin - self.direction * self.start_cells);
+        let depth = from_eye.dot(self.direction);
+        if depth.is_nan() || depth < LEAST_DEPTH_CELLS {
+            return None;
+        }
+        let along = |axis: DVec3| from_eye.dot(axis) / (axis.length_squared() * depth);
+        let [width, height] = self.size_px.map(f64::from);
+        let (x, y) = (along(self.direction_x), along(self.direction_y));
+        Some(([(x + 1.0) / 2.0 * width, (1.0 - y) / 2.0 * height], depth))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::IVec3;
+
+    #[test]
+    fn points_on_a_pixels_ray_are_projected_to_that_pixel() {
+        let grid =
+            Grid { anchor: DVec3::new(3.0, -1.0, 0.5), offset_cells: IVec3::new(-5, 2, 1), span: 0.125, depth: 6 };
+        let corner = grid.corner();
+        for (eye, target) in [
+            (corner + DVec3::new(4.0, 3.0, 2.0), corner + 4.0),
+            (corner + DVec3::new(400.0, -300.0, 5.0), corner + 4.0),
+            (corner + DVec3::new(1.0, 1e6, 1.0), corner),
+        ] {
+            let camera = OrbitCamera { eye, target, fov_y_degrees: 40.0 };
+            let rays = PixelRays::new(&camera, &grid, [640, 360]);
+            for point_px in [[0.5, 0.5], [320.0, 180.0], [639.5, 17.25], [100.0, 359.0]] {
+                let ray = rays.ray(point_px);
+                for t in [0.5, 20.0, 3000.0] {
+                    let ([x, y], depth) = rays.project(ray.origin + ray.direction * t).expect("in front of the eye");
+                    // A million spans away, a cell is 1e-10 of the numbers it is computed from.
+                    let error_px = (x - point_px[0]).abs().max((y - point_px[1]).abs());
+                    assert!(error_px < 1e-6 && depth > 0.0, "{eye}: {point_px:?} at {t} is off by {error_px} pixels");
+                }
+            }
+            let behind = rays.ray([320.0, 180.0]);
+            assert_eq!(rays.project(behind.origin - behind.direction * (behind.start_cells + 2.0)), None);
+        }
+    }
 }

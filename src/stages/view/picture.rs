@@ -45,6 +45,16 @@ impl Picture {
     pub fn read_distances(&self, gpu: &Gpu) -> Result<Vec<f32>, GpuError> {
         gpu.read_texture(&self.distance).map(|bytes| bytemuck::pod_collect_to_vec(&bytes))
     }
+
+    /// Distance in cells at one pixel; `None` outside the picture and where there is nothing. Blocks likewise.
+    pub fn read_distance(&self, gpu: &Gpu, pixel: [u32; 2]) -> Result<Option<f32>, GpuError> {
+        if pixel.into_iter().zip(self.size_px()).any(|(at, size)| at >= size) {
+            return Ok(None);
+        }
+        let bytes = gpu.read_texels(&self.distance, pixel, [1, 1])?;
+        let distance: Option<f32> = bytemuck::pod_collect_to_vec(&bytes).first().copied();
+        Ok(distance.filter(|distance| *distance < super::NO_DEPTH))
+    }
 }
 
 /// What triangles need beside it to hide one another.

@@ -3,6 +3,10 @@
 //! The floor of a kernel is the bytes it must move over the bandwidth of a copy kernel measured in
 //! the same run; the ratio says how far above it the kernel is.
 
+mod cost;
+mod light;
+mod sampling;
+
 use std::path::PathBuf;
 use std::time::{Instant, SystemTime};
 
@@ -13,6 +17,9 @@ use octolume::settings::{Settings, View};
 use octolume::stages::bench::copy;
 use serde::Serialize;
 use wgpu::BufferUsages;
+
+use cost::{Cost, HEADS, Samples};
+use light::LightReport;
 
 use super::options::{Common, Moment};
 use super::session::Session;
@@ -34,6 +41,9 @@ pub struct Bench {
     /// Prints JSON
     #[arg(long)]
     json: bool,
+    /// Measures pointers, light and sampling too, variant by variant
+    #[arg(long)]
+    lighting: bool,
     /// Rebuilds before anything is measured
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     warmup: u32,
@@ -65,27 +75,9 @@ struct Report {
     rebuild: Cost,
     /// From the request to the finished picture, by the clock.
     frame_wall: Spread,
-}
-
-#[derive(Serialize)]
-struct Cost {
-    kernel: String,
-    #[serde(flatten)]
-    time: Spread,
-    /// What the algorithm has to read and write.
-    bytes: u64,
-    gb_per_s: f64,
-    /// The same bytes at the copy kernel's bandwidth.
-    floor_ms: f64,
-    /// Median over floor; none where nothing need be moved.
-    ratio: Option<f64>,
-}
-
-/// Times and bytes of one kernel, or of all together, a rebuild each.
-#[derive(Default)]
-struct Samples {
-    ms: Vec<f64>,
-    bytes: u64,
+    /// What light costs, by variant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    light: Option<LightReport>,
 }
 
 impl Bench {
@@ -116,6 +108,11 @@ impl Bench {
             }
         }
         let cost = |(kernel, samples): (String, Samples)| samples.cost(kernel, bytes_per_ms);
+        let light = if self.lighting {
+            Some(light::measure(session, &settings, (self.warmup, self.runs), bytes_per_ms)?)
+        } else {
+            None
+        };
         let info = &session.engine.gpu().info;
         Ok(Report {
             scene: session.prepared.scene.name.clone(),
@@ -131,6 +128,7 @@ impl Bench {
             rebuild: cost(("rebuild".to_owned(), rebuild)).context("no kernel ran")?,
             kernels: kernels.into_iter().filter_map(cost).collect(),
             frame_wall: Spread::of(&frame_ms).context("no run was measured")?,
+            light,
             copy,
             settings,
         })
@@ -182,35 +180,15 @@ fn add_run(kernels: &mut Vec<(String, Samples)>, rebuild: &mut Samples, timings:
     rebuild.add(timings.iter().filter(|timing| !timing.kernel.starts_with(VIEW_KERNELS)));
 }
 
-impl Samples {
-    fn add<'a>(&mut self, timings: impl Iterator<Item = &'a KernelTiming>) {
-        let (mut ms, mut bytes) = (0.0, 0);
-        for timing in timings {
-            ms += timing.ms;
-            bytes += timing.bytes_moved;
-        }
-        self.ms.push(ms);
-        self.bytes = bytes;
-    }
-
-    fn cost(&self, kernel: String, bytes_per_ms: f64) -> Option<Cost> {
-        let time = Spread::of(&self.ms)?;
-        let floor_ms = self.bytes as f64 / bytes_per_ms;
-        let gb_per_s = self.bytes as f64 / time.median_ms / 1e6;
-        let ratio = (floor_ms > 0.0).then(|| time.median_ms / floor_ms);
-        Some(Cost { kernel, time, bytes: self.bytes, gb_per_s, floor_ms, ratio })
-    }
-}
-
 impl Report {
     fn text(&self) -> String {
-        let heads = ["kernel", "median ms", "p5", "p95", "MB", "GB/s", "floor ms", "ratio"];
         let all = self.kernels.iter().chain([&self.rebuild, &self.copy]);
-        let table = output::table(&heads, all.map(Cost::row));
+        let table = output::table(&HEADS, all.map(Cost::row));
         let wall = &self.frame_wall;
+        let light = self.light.as_ref().map_or_else(String::new, |light| format!("\n\n{}", light.text()));
         format!(
             "{} at {} cells of {} units, {} voxels, on {} ({}), {}\n\n{table}\n\n\
-             voxelized once in {:.0} ms; a frame by the clock: {:.1} ms ({:.1} to {:.1})",
+             voxelized once in {:.0} ms; a frame by the clock: {:.1} ms ({:.1} to {:.1}){light}",
             self.scene,
             self.settings.discretization.grid,
             self.span,
@@ -223,21 +201,5 @@ impl Report {
             wall.p5_ms,
             wall.p95_ms,
         )
-    }
-}
-
-impl Cost {
-    fn row(&self) -> Vec<String> {
-        let Spread { median_ms, p5_ms, p95_ms } = self.time;
-        vec![
-            self.kernel.clone(),
-            format!("{median_ms:.2}"),
-            format!("{p5_ms:.2}"),
-            format!("{p95_ms:.2}"),
-            format!("{:.1}", self.bytes as f64 / 1e6),
-            format!("{:.1}", self.gb_per_s),
-            format!("{:.2}", self.floor_ms),
-            self.ratio.map_or_else(String::new, |ratio| format!("{ratio:.1}")),
-        ]
     }
 }

@@ -1,0 +1,28 @@
+//! Samples the lit octree at given places, as cones and slices do.
+
+use super::{Engine, EngineError};
+use crate::gpu::{Job, KernelTiming, Recorder};
+use crate::stages::sample::sample_points::{self, PointParams};
+use crate::stages::sample::{SampledOctree, Sampler};
+
+impl Engine {
+    /// Radiance times α, and α, at points of (position in cells, level; width in cells where the sampler
+    /// is quadrilinear), seen along `direction`; and what the kernel took. The octree must hold the light
+    /// that the sampler reads and the pointers that it follows. Blocks until the samples are here.
+    pub fn sample(
+        &self,
+        sampler: &Sampler,
+        direction: [f32; 3],
+        points: &[[f32; 4]],
+    ) -> Result<(Vec<[f32; 4]>, Vec<KernelTiming>), EngineError> {
+        let light = self.light.buffers.light.made("light")?;
+        let octree = SampledOctree::new(&self.shown.params, &self.shown.buffers, &light, sampler.lookup)?;
+        let buffer = self.gpu.upload("sample points", points)?;
+        let params = PointParams::new(direction);
+        let mut frame = Recorder::default();
+        sample_points::record(&self.gpu, &mut frame, &octree, (sampler, &params), &buffer, points.len() as u64);
+        Job::new(frame).run_to_end(&self.gpu)?;
+        let timings = self.gpu.take_timings();
+        Ok((self.gpu.read(&buffer, 0..buffer.bytes())?, timings))
+    }
+}
