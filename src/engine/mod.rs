@@ -31,6 +31,7 @@ use std::time::Duration;
 use crate::data::octree::Slot;
 use crate::data::pages::SegmentOrder;
 use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, GpuTexture, KernelTiming};
+use crate::lights;
 use crate::plan::{self, FramePlan};
 use crate::prepare::{ExactVoxels, Prepared};
 use crate::settings::Filter;
@@ -153,12 +154,19 @@ impl Engine {
         self.done.octree.is_some() && self.wanted.as_ref().is_some_and(|wanted| wanted.facts.voxels() > 0)
     }
 
-    /// Objects that the requested pose cannot show, a sentence each.
+    /// Objects that the requested pose cannot show, lights that are nowhere in it, and a shadow map that is not there, a
+    /// sentence each.
     pub fn left_out(&self) -> Vec<String> {
         let (Some(prepared), Some(wanted)) = (&self.prepared, &self.wanted) else { return Vec::new() };
         let name = |&object: &usize| &prepared.objects[object].object.name;
         let objects = wanted.frame.left_out.iter().map(name);
-        objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite")).collect()
+        let objects =
+            objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite"));
+        let (scene, settings) = (&prepared.scene, &wanted.settings);
+        // A request with nodes that are not there was refused.
+        let shown = settings.visibility.shown_nodes(scene).unwrap_or_default();
+        let lost = lights::left_out(scene, &wanted.pose, &settings.lighting, &shown);
+        objects.chain(lost).chain(wanted.missing_map()).collect()
     }
 
     fn make_plan(&mut self) {

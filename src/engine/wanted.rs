@@ -30,6 +30,13 @@ impl Wanted {
         LitBy { lights: self.lights.clone(), lighting: self.settings.lighting.clone() }
     }
 
+    /// The light whose shadow map is wanted does not shine: the last one's is shown.
+    pub fn missing_map(&self) -> Option<String> {
+        let (number, last) = (self.settings.look.shadow_map, self.lights.len().checked_sub(1)?);
+        (self.settings.look.view == View::ShadowMap && number > last)
+            .then(|| format!("there is no shadow map {number}: they are 0 to {last}, and {last} is shown"))
+    }
+
     /// Nothing of the scene is in the picture: all of it is hidden, or outside the grid.
     pub fn shows_nothing(&self) -> bool {
         match self.settings.look.view {

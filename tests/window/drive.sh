@@ -102,6 +102,8 @@ enter() { click "$1"; xdotool type --delay 100 "$2"; xdotool key Return; }
 
 alt_click() { xdotool mousemove $1 sleep 0.5 keydown alt sleep 0.5 click 1 sleep 0.5 keyup alt sleep 0.5 mousemove 1200 860; }
 
+zoom_in() { xdotool mousemove $1 sleep 0.5 click --repeat 12 --delay 100 4 sleep 0.5 mousemove 1200 860; }
+
 Xvfb -displayfd 3 -screen 0 1440x900x24 3>"$folder/display" 2>/dev/null &
 server=$!
 trap 'kill "${window:-}" "$server" 2>/dev/null; wait 2>/dev/null || true' EXIT
@@ -153,12 +155,13 @@ drag "$HEIGHT_MIDDLE" "$HEIGHT_LOW"; photograph_at_rest 27-slice-moved; must_cha
 click "$SHADOW_MAP"; photograph_at_rest 28-shadow-map; must_change 27-slice-moved 28-shadow-map
 click "$VOXELS_BELOW"; photograph_at_rest 29-voxels; must_equal 25-light-on 29-voxels
 
+zoom_in "$VIEW_MIDDLE"; photograph_at_rest 30-near; must_change 29-voxels 30-near
 click "$TIMINGS"; click "$NODE"; click "$DRAW_POINTERS"; alt_click "$VIEW_MIDDLE"
-photograph_at_rest 30-node; must_change 29-voxels 30-node
-click "$ABOVE"; photograph_at_rest 31-above; must_change 30-node 31-above
-click "$FIRST_CHILD"; photograph_at_rest 32-child; must_change 31-above 32-child
+photograph_at_rest 31-node; must_change 30-near 31-node
+click "$ABOVE"; photograph_at_rest 32-above; must_change 31-node 32-above
+click "$FIRST_CHILD"; photograph_at_rest 33-child; must_change 32-above 33-child
 
-click "$SCREENSHOT"; sleep 1; xdotool key ctrl+s; photograph_at_rest 33-saved
+click "$SCREENSHOT"; sleep 1; xdotool key ctrl+s; photograph_at_rest 34-saved
 shots=("$folder"/octolume-*.png)
 ((${#shots[@]} == 2)) || fail "two screenshots were asked for, there are ${#shots[@]}"
 for shot in "${shots[@]}"; do
