@@ -100,7 +100,7 @@ impl Engine {
                 Some(map) => map,
                 None => &no_map(gpu, &mut self.light.no_map)?,
             };
-            let light = LightParams::new(light, &grid, lighting.shadow_offset_voxels);
+            let light = LightParams::new(light, &grid, lighting.offset_voxels());
             illuminate::record(gpu, &mut frame, &octree, &direct, &light, (lighting.shadows, map));
         }
         Ok(frame)
@@ -154,12 +154,7 @@ impl Engine {
         let octree = self.lit_octree()?;
         let light = self.light.buffers.light.made("light")?;
         let lighting = &wanted.settings.lighting;
-        let cones = Cones {
-            count: lighting.cones,
-            aperture_degrees: lighting.cone_degrees,
-            start_cells: lighting.shadow_offset_voxels,
-            ..Cones::default()
-        };
+        let cones = Cones { count: lighting.cones, aperture_degrees: lighting.cone_degrees, ..Cones::default() };
         let params = ConeParams::new(&cones, lighting.sky_nits.map(|channel| channel as f32));
         gather::record(&self.gpu, &mut frame, &octree, (&light, lighting.opacity), (gathered, &params), irradiance);
         Ok(frame)
