@@ -1,13 +1,20 @@
-//! What accuracy costs: which poses are compared, and a row of the resulting table.
+//! What accuracy costs: which poses and lights are compared, and a row of the resulting table.
 //!
 //! *Holes* are cells of the exact posed voxelization that no moved voxel reached; *spill* is cells
 //! that only moved voxels reached.
 
+mod cut_outs;
+pub mod posed_triangles;
+pub mod shadows;
+mod triangle;
+
 use serde::Serialize;
 
 use crate::engine::FilterReport;
+use crate::lights::{KnownLight, LightSource};
 use crate::prepare::{MotionError, Prepared};
 use crate::settings::MotionSettings;
+use crate::settings::lighting::{LightEdit, Lighting, SunShines};
 
 /// Turns of a scene that plays no clip: not at all, a little, and by no simple fraction.
 pub const STATIC_TURNS_DEGREES: [f64; 3] = [0.0, 10.0, 37.0];
@@ -68,4 +75,22 @@ pub fn spill_percent(filter: &FilterReport) -> Option<f64> {
 
 fn percent(part: u64, whole: u64) -> f64 {
     if whole == 0 { 0.0 } else { 100.0 * part as f64 / whole as f64 }
+}
+
+/// Lighting with one light alone: no other light, no sky, no emission, no bounces. `known`: all there are.
+pub fn alone(lighting: &Lighting, known: &[KnownLight], source: LightSource) -> Lighting {
+    let mut lighting = Lighting { sky_nits: [0.0; 3], emission: 0.0, bounces: 0, ..lighting.clone() };
+    lighting.sun.shines = SunShines::Never;
+    for light in known {
+        let on = light.source == source;
+        match light.source {
+            LightSource::Node(node) => drop(lighting.edits.insert(node, LightEdit { on, ..light.light })),
+            LightSource::Sun if on => lighting.sun.shines = SunShines::Always,
+            LightSource::Sun => {}
+            LightSource::Added(index) => {
+                lighting.added.get_mut(index).into_iter().for_each(|added| added.light.on = on)
+            }
+        }
+    }
+    lighting
 }

@@ -15,6 +15,7 @@ mod light;
 mod light_views;
 mod node_reader;
 mod picture;
+mod read_irradiance;
 mod read_voxels;
 mod record;
 mod report;

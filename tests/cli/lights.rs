@@ -172,3 +172,16 @@ fn light_and_slices_are_drawn_and_a_shadow_map_that_is_not_there_is_told() {
     let (_, warnings) = draw(&["--view", "shadow-map:7"]);
     assert!(warnings.contains("there is no shadow map 7: they are 0 to 0, and 0 is shown"), "{warnings}");
 }
+
+#[test]
+fn shadows_of_no_light_cannot_be_compared() {
+    let scenes = Scenes::new();
+    let scene = scenes.still_box();
+    let arguments = ["accuracy".as_ref(), scene.as_os_str(), "--lighting".as_ref(), "--sun".as_ref(), "off".as_ref()];
+    let output = on_small_grid(arguments);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{errors}");
+    assert!(errors.contains("still: no light shines that could cast a shadow"), "{errors}");
+    let output = octolume(["accuracy", "courtyard", "--lighting", "--grids", "100"]);
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+}

@@ -1,6 +1,7 @@
 //! What `info`, `plan`, `bench` and `accuracy` print, field by field.
 
 use std::ffi::OsStr;
+use std::fs;
 
 use serde_json::{Value, json};
 
@@ -136,4 +137,41 @@ fn accuracy_compares_both_filters_in_every_pose() {
     for file in files {
         assert!(scenes.path("accuracy").join(file).is_file(), "{file}");
     }
+}
+
+#[test]
+fn accuracy_compares_the_shadows_of_every_light() {
+    let scenes = Scenes::new();
+    let folder = scenes.path("shadows");
+    let folder = folder.to_str().expect("UTF-8");
+    let scene = scenes.turning_box();
+    let bulb = "point:at=1,5,3:name=bulb";
+    let options = ["--lighting", "--runs", "1", "--sun", "500", "--add-light", bulb, "-o", folder];
+    let rows = report("accuracy", scene.as_os_str(), &options);
+    let rows = rows.as_array().expect("a list");
+    let names: Vec<[&Value; 3]> = rows.iter().map(|row| [&row["light"], &row["shadows"], &row["map_px"]]).collect();
+    let methods = [
+        ("map", json!(1024)),
+        ("map", json!(2048)),
+        ("map", json!(4096)),
+        ("march", json!(null)),
+        ("off", json!(null)),
+    ];
+    let expected =
+        ["sun", "bulb", "all"].map(|light| methods.clone().map(|(shadows, px)| [json!(light), json!(shadows), px]));
+    assert_eq!(names, expected.as_flattened().iter().map(|row| row.each_ref()).collect::<Vec<_>>());
+    for row in rows {
+        assert_eq!((&row["scene"], &row["grid"], &row["time_secs"]), (&json!("box"), &json!(64), &json!(0.0)));
+        let number = |name: &str| row[name].as_f64().unwrap_or_else(|| panic!("{name}: {row}"));
+        assert!(number("kernel_ms") > 0.0 && number("points") > 1000.0 && number("open_lux") > 0.0, "{row}");
+        for name in ["lit_percent", "mean_error_percent", "lost_percent", "leaked_percent"] {
+            assert!((0.0..=100.0).contains(&number(name)), "{name}: {row}");
+        }
+        // Nothing is beside a box that could throw a shadow on it.
+        assert_eq!(row["lit_percent"], 100.0, "{row}");
+    }
+    let table = fs::read_to_string(scenes.path("shadows").join("shadows.md")).expect("a table");
+    let heads = "| scene | time s | turn ° | grid | light | shadows  | kernel ms | points | lit % | mean error % | lost % | leaked % |";
+    assert_eq!((table.lines().next(), table.lines().count()), (Some(heads), 17), "{table}");
+    assert_eq!(fs::read_to_string(scenes.path("shadows").join("shadows.csv")).expect("a table").lines().count(), 16);
 }

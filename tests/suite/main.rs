@@ -60,6 +60,7 @@ mod scan;
 mod scenes;
 mod shaders;
 mod shadow_maps;
+mod shadow_truth;
 mod skin_rig;
 mod skinning;
 mod skins_hard;
