@@ -40,12 +40,19 @@ fn hop(node: u32, axis: u32) -> u32 {
     return octree.dense_node_count + 8u * block + ((sparse & 7u) & ~bit);
 }
 
-// `light_entry` of a node by its index.
-fn linked_light_entry(level: u32, key: u32, node: u32) -> u32 {
+// The block of a sparse node by its index.
+fn linked_block(level: u32, key: u32, node: u32) -> BlockLight {
     if node == NO_BLOCK {
-        return NO_BLOCK;
+        return NO_LIGHT;
     }
-    return light_entry(level, key, (node - octree.dense_node_count) >> 3u);
+    var children = 0u;
+    if level == octree.depth {
+        children = leaf_children(key);
+        if children == 0u {
+            return NO_LIGHT;
+        }
+    }
+    return block_light(level, (node - octree.dense_node_count) >> 3u, children);
 }
 
 fn linked_entry(level: u32, node: vec3<i32>) -> u32 {
@@ -53,34 +60,36 @@ fn linked_entry(level: u32, node: vec3<i32>) -> u32 {
     if level <= octree.dense_level {
         return octree.levels[level].first_node + key;
     }
-    return linked_light_entry(level, key, descend(level, key));
+    return entry_in(linked_block(level, key, descend(level, key)), key);
 }
 
-// A base of −1 is clamped: the way starts at the node that is its corner ahead.
+// With a pointer a node, every corner is hopped to, as in the paper; with one a block, every block.
 fn linked_corners(level: u32, base: vec3<i32>) -> Corners {
-    let cells = i32(1u << level);
-    if !reaches_level(base, cells) {
-        return no_corners();
-    }
+    let way = way_from(base, i32(1u << level));
     if level <= octree.dense_level {
-        return dense_corners(level, base);
+        return dense_corners(level, way);
     }
-    let start = max(base, vec3<i32>(0));
-    let below = axis_bits(base < vec3<i32>(0));
     var corners = no_corners();
     var nodes: array<u32, 8>;
-    // Bit by axis: the hops from the start.
+    nodes[0] = descend(level, key_after(way, 0u));
+    // Without the first node none of the eight is occupied: it would be their dummy.
+    if nodes[0] == NO_BLOCK {
+        return corners;
+    }
+    var blocks_after: array<BlockLight, 8>;
     for (var hops = 0u; hops < 8u; hops += 1u) {
-        if (hops & below) != 0u {
+        if (hops & way.closed) != 0u {
             continue;
         }
-        if hops == 0u {
-            nodes[0] = descend(level, morton_key(vec3<u32>(start)));
-        } else {
+        let is_new_block = (hops & ~way.odd) == 0u;
+        if hops != 0u && (NODE_POINTERS || is_new_block) {
             nodes[hops] = hop(nodes[hops & (hops - 1u)], firstTrailingBit(hops));
         }
-        let key = morton_key(vec3<u32>(start) + corner_offset(hops));
-        corners.entries[hops | below] = linked_light_entry(level, key, nodes[hops]);
+        let key = key_after(way, hops);
+        if is_new_block {
+            blocks_after[hops] = linked_block(level, key, nodes[hops]);
+        }
+        corners.entries[hops | way.below] = entry_in(blocks_after[hops & way.odd], key);
     }
     return corners;
 }

@@ -24,6 +24,8 @@ pub struct Inspector {
     pub is_open: bool,
     hovered: Option<NodeAddress>,
     pinned: Option<NodeAddress>,
+    /// Where a node is to be pinned, once nothing is built or drawn any more.
+    clicked: Option<Pos2>,
     /// Pinned before, the last one at the end.
     before: Vec<NodeAddress>,
     /// Where the pointer was, and of which results, when `hovered` was read.
@@ -75,13 +77,19 @@ impl Inspector {
         self.read.as_ref().map(|read| (read.address, read.build))
     }
 
-    /// Reads which node the pointer is over, where it or the results are others than last time.
+    /// Reads which node the pointer is over, where it or the results are others than last time; pins it
+    /// where it was clicked.
     fn pick(&mut self, engine: &Engine, at: Option<(Pos2, [u32; 2])>, results: u64) -> Result<(), EngineError> {
-        let now = at.map(|(pos, _)| (pos, results));
         // Outside the picture, the last node stays: its links are there.
-        let Some((_, pixel)) = at.filter(|_| self.pinned.is_none() && self.picked != now) else { return Ok(()) };
-        self.picked = now;
-        self.hovered = engine.node_at(pixel)?;
+        let Some((pos, pixel)) = at else { return Ok(()) };
+        if let Some(clicked) = self.clicked.take_if(|clicked| *clicked == pos) {
+            self.picked = Some((clicked, results));
+            self.hovered = engine.node_at(pixel)?;
+            self.hovered.into_iter().for_each(|address| self.apply(Pin::To(address)));
+        } else if self.pinned.is_none() && self.picked != Some((pos, results)) {
+            self.picked = Some((pos, results));
+            self.hovered = engine.node_at(pixel)?;
+        }
         Ok(())
     }
 
@@ -99,24 +107,25 @@ impl Inspector {
 impl App {
     /// Once a frame, after the picture. Alt and a click pin the node under the pointer.
     pub(super) fn inspect(&mut self, ui: &egui::Ui, response: &Response) {
-        let stage = &self.stage;
-        if !self.desk.inspector.is_open || stage.working().is_some() || stage.error().is_some() {
+        let (stage, inspector) = (&self.stage, &mut self.desk.inspector);
+        if !inspector.is_open {
+            return;
+        }
+        if response.clicked() && ui.input(|input| input.modifiers.alt) {
+            inspector.clicked = response.interact_pointer_pos();
+        }
+        if stage.working().is_some() || stage.error().is_some() {
             return;
         }
         let picture_px = stage.picture().map(crate::gpu::GpuTexture::size_px);
-        let at = response.hover_pos().zip(picture_px);
+        let at = inspector.clicked.or(response.hover_pos()).zip(picture_px);
         let at = at.and_then(|(pos, size_px)| Some((pos, pixel_at(response.rect, pos, size_px)?)));
-        let inspector = &mut self.desk.inspector;
+        // What was clicked may no longer be in the view.
+        inspector.clicked = inspector.clicked.filter(|_| at.is_some());
         let before = inspector.read_of();
         let read = inspector
             .pick(&stage.engine, at, stage.results)
             .and_then(|()| inspector.update(&stage.engine, stage.builds));
-        if response.clicked()
-            && ui.input(|input| input.modifiers.alt)
-            && let Some(address) = inspector.hovered
-        {
-            inspector.apply(Pin::To(address));
-        }
         // The panel was laid out before.
         if inspector.read_of() != before {
             ui.ctx().request_repaint();

@@ -170,15 +170,15 @@ impl App {
             panels::timings::ui(ui, (&stage.timings, &stage.plan), &stage.history, &self.latency);
             Vec::new()
         });
-        commands.extend(section(ui, "Octree", true, |ui| {
-            panels::octree::ui(ui, stage.octree.as_ref(), self.settings.look.level);
-            Vec::new()
-        }));
         let inspector = &mut self.desk.inspector;
         inspector.is_open = false;
         commands.extend(section(ui, "Node under cursor", false, |ui| {
             inspector.is_open = true;
             panels::node::ui(ui, inspector, &self.settings.look)
+        }));
+        commands.extend(section(ui, "Octree", true, |ui| {
+            panels::octree::ui(ui, stage.octree.as_ref(), self.settings.look.level);
+            Vec::new()
         }));
         commands.extend(section(ui, "Frame plan", true, |ui| {
             panels::plan::ui(ui, &stage.plan);

@@ -9,7 +9,9 @@ use crate::engine::{NodeAddress, NodeFacts, StoredNode};
 use crate::stages::view::camera::PixelRays;
 
 const DASH: f32 = 4.0;
+/// Of the balls at interpolation corners, in points; of small nodes this share of an edge.
 const BALL_RADIUS: f32 = 3.5;
+const BALL_SHARE: f32 = 0.12;
 /// What comes nearer to the eye is cut off.
 const LEAST_DEPTH_CELLS: f64 = 0.01;
 
@@ -31,19 +33,20 @@ fn shapes(projection: &Projection, facts: &NodeFacts) -> Vec<Shape> {
     let mut shapes = Vec::new();
     for (ahead, color) in facts.forward.iter().zip(theme::AXES) {
         if let Some(ahead) = ahead {
-            outline(&mut shapes, projection, ahead, Stroke::new(1.0, color.gamma_multiply(0.6)));
+            outline(&mut shapes, projection, ahead, Stroke::new(1.0, color.gamma_multiply(0.85)));
             arrow(&mut shapes, projection, [&facts.node, ahead], color);
         }
     }
     outline(&mut shapes, projection, &facts.node, Stroke::new(1.5, theme::STRONG));
     for corner in facts.corners.iter().flatten() {
-        if let Some(at) = projection.place(projection.center(corner.address)) {
+        if let Some((at, edge)) = projection.node(corner.address) {
+            let radius = (edge * BALL_SHARE).clamp(1.0, BALL_RADIUS);
             shapes.push(Shape::circle_filled(
                 at,
-                BALL_RADIUS,
+                radius,
                 if corner.is_dummy { Color32::TRANSPARENT } else { theme::STRONG },
             ));
-            shapes.push(Shape::circle_stroke(at, BALL_RADIUS, Stroke::new(1.2, theme::STRONG)));
+            shapes.push(Shape::circle_stroke(at, radius, Stroke::new(1.2, theme::STRONG)));
         }
     }
     shapes
@@ -76,7 +79,10 @@ fn arrow(shapes: &mut Vec<Shape>, projection: &Projection, nodes: [&StoredNode; 
     let stroke = Stroke::new(2.0, color);
     line(shapes, projection, centers, stroke, nodes[1].is_dummy);
     let (Some(tail), Some(tip)) = (projection.place(centers[0]), projection.place(centers[1])) else { return };
-    let along = (tip - tail).normalized() * HEAD.min((tip - tail).length());
+    // Short of the ball at the centre.
+    let way = (tip - tail).normalized();
+    let tip = tip - way * BALL_RADIUS.min((tip - tail).length() / 4.0);
+    let along = way * HEAD.min((tip - tail).length());
     let across = along.rot90() * 0.4;
     let head = vec![tip, tip - along + across, tip - along - across];
     let fill = if nodes[1].is_dummy { Color32::TRANSPARENT } else { color };
@@ -93,6 +99,15 @@ impl Projection {
     fn center(&self, address: NodeAddress) -> DVec3 {
         let (low, edge) = self.cube(address);
         low + edge / 2.0
+    }
+
+    /// Centre and edge of a node in the view, in points, the edge as seen from the front.
+    fn node(&self, address: NodeAddress) -> Option<(Pos2, f32)> {
+        let center = self.center(address);
+        let at = self.place(center)?;
+        let (_, depth) = self.rays.project(center)?;
+        let cell_points = f64::from(self.rect.height()) / (2.0 * depth * self.rays.direction_y.length());
+        Some((at, (self.cube(address).1 * cell_points) as f32))
     }
 
     /// In the view, in points; `None` behind the eye.
@@ -142,6 +157,9 @@ mod tests {
         assert!((right.x - 60.0).abs() < 1e-4 && (right.y - 45.0).abs() < 1e-4, "{right}");
         assert_eq!(projection.cube(NodeAddress { level: 1, cell: [1, 0, 1] }), (DVec3::new(4.0, 0.0, 4.0), 4.0));
         assert_eq!(projection.place(DVec3::new(4.0, 4.0, 15.0)), None, "behind the eye");
+        // Two cells at a distance of nine, of eighteen cells in 50 points.
+        let (_, edge) = projection.node(NodeAddress { level: 2, cell: [2, 2, 2] }).expect("in view");
+        assert!((edge - 50.0 * 2.0 / 18.0).abs() < 1e-4, "{edge}");
     }
 
     #[test]

@@ -37,7 +37,7 @@ pub struct LightingOptions {
     /// Texels along an edge of a shadow map: 512, 1024, 2048, 4096 or 8192; otherwise 2048
     #[arg(long, value_name = "PX")]
     shadow_map: Option<u32>,
-    /// How far above its surface a voxel looks for what hides the light, in voxels; otherwise 1.5
+    /// How far above its surface a voxel looks for what hides the light, in voxels; otherwise 0.5, or 1 where shadows are marched
     #[arg(long, value_name = "VOXELS", value_parser = values::number, allow_hyphen_values = true)]
     shadow_offset: Option<f64>,
     /// What a node of the octree stops: the same in all directions, or each axis by itself; otherwise isotropic
@@ -76,7 +76,7 @@ impl LightingOptions {
         set(&mut lighting.emission, self.emission);
         set(&mut lighting.shadows, self.shadows);
         set(&mut lighting.shadow_map_px, self.shadow_map);
-        set(&mut lighting.shadow_offset_voxels, self.shadow_offset);
+        lighting.shadow_offset_voxels = self.shadow_offset.or(lighting.shadow_offset_voxels);
         set(&mut lighting.opacity, self.opacity);
         set(&mut lighting.bounces, self.bounces);
         set(&mut lighting.cones, self.cones);

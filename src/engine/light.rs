@@ -9,10 +9,7 @@ use crate::data::light::{IRRADIANCE_BYTES, LightBuffers, light_bytes};
 use crate::data::octree::Slot;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 use crate::lights::PosedLight;
-use crate::prepare::Prepared;
-use crate::scene::{Aabb, Pose};
 use crate::settings::lighting::{Lighting, Shadows};
-use crate::settings::{Hidden, MotionSettings};
 use crate::stages::fill::gather_emission;
 use crate::stages::fill::place_emission::{self, Emission};
 use crate::stages::light::gather::{self, ConeParams, Cones, Gathered};
@@ -20,10 +17,6 @@ use crate::stages::light::illuminate::{self, LightParams};
 use crate::stages::light::inject::{self, Injected};
 use crate::stages::light::shadow::{ShadowMap, ShadowParams};
 use crate::stages::light::{LitOctree, average_light};
-use crate::stages::mesh::PosedMesh;
-
-/// Texels that all shadow maps have together at most: 256 MiB. More lights get smaller maps.
-const MAX_SHADOW_TEXELS: u64 = 1 << 26;
 
 /// The light of the shown octree.
 #[derive(Debug, Default)]
@@ -31,7 +24,7 @@ pub struct LightOnGpu {
     pub buffers: LightBuffers,
     /// One a light.
     pub maps: Vec<ShadowMap>,
-    matrices: Slot,
+    pub matrices: Slot,
     /// Hides nothing.
     no_map: Option<ShadowMap>,
     /// Light times opacity, and opacity, of the whole scene.
@@ -71,64 +64,7 @@ pub struct LitBy {
     pub lighting: Lighting,
 }
 
-/// What the shadow maps were drawn from.
-#[derive(Clone, Debug)]
-pub struct ShadowedBy {
-    pub params: Vec<ShadowParams>,
-    pub pose: Arc<Pose>,
-    pub hidden: Hidden,
-}
-
-impl ShadowedBy {
-    /// By bits: a matrix that is not finite is equal to itself.
-    pub fn is(&self, other: &Self) -> bool {
-        let bits = |pose: &Pose| -> Vec<[u64; 16]> {
-            pose.world_from_node.iter().map(|matrix| matrix.to_cols_array().map(f64::to_bits)).collect()
-        };
-        self.params == other.params && self.hidden == other.hidden && bits(&self.pose) == bits(&other.pose)
-    }
-}
-
-/// One layout a light, all together within [`MAX_SHADOW_TEXELS`].
-pub fn shadow_params(prepared: &Prepared, wanted: &Wanted) -> Vec<ShadowParams> {
-    let bounds = prepared.bounds.map(|bounds| turned(bounds, &wanted.settings.motion));
-    let sized = |size_px: u32| -> Vec<ShadowParams> {
-        wanted.lights.iter().map(|light| ShadowParams::new(light, &prepared.grid, bounds, size_px)).collect()
-    };
-    let texels = |params: &[ShadowParams]| -> u64 {
-        params.iter().map(|map| u64::from(map.count) * u64::from(map.size_px).pow(2)).sum()
-    };
-    let mut size_px = wanted.settings.lighting.shadow_map_px;
-    let mut params = sized(size_px);
-    while size_px > 1 && texels(&params) > MAX_SHADOW_TEXELS {
-        size_px /= 2;
-        params = sized(size_px);
-    }
-    params
-}
-
-/// Bounds of what turns about its centre, however it is turned.
-fn turned(bounds: Aabb, motion: &MotionSettings) -> Aabb {
-    if motion.turn_degrees == [0.0; 3] {
-        return bounds;
-    }
-    let half = glam::DVec3::splat((bounds.max - bounds.min).length() / 2.0);
-    Aabb { min: bounds.center() - half, max: bounds.center() + half }
-}
-
 impl Engine {
-    pub(super) fn shadowed_by(&self, wanted: &Wanted) -> Option<ShadowedBy> {
-        let params = shadow_params(self.prepared.as_ref()?, wanted);
-        Some(ShadowedBy { params, pose: Arc::clone(&wanted.pose), hidden: wanted.hidden.clone() })
-    }
-
-    pub(super) fn shadows_changed(&self, wanted: &Wanted) -> bool {
-        match (&self.done.shadows, self.shadowed_by(wanted)) {
-            (Some(done), Some(wanted)) => !done.is(&wanted),
-            _ => true,
-        }
-    }
-
     pub(super) fn lit_octree(&self) -> Result<LitOctree, GpuError> {
         LitOctree::new(&self.shown.params, &self.shown.buffers)
     }
@@ -144,30 +80,6 @@ impl Engine {
         let emission = Emission::new(&gpu, &mut self.light.buffers, &octree, (cache_emission, voxels.threads()))?;
         place_emission::record(&gpu, &mut frame, &voxels, &fill, &emission);
         gather_emission::record(&gpu, &mut frame, &octree, self.shown.filter, &fill, &emission);
-        Ok(frame)
-    }
-
-    /// A map of every light, kept until a light or an object moves.
-    pub(super) fn record_shadows(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
-        let mut frame = Recorder::default();
-        let prepared = self.prepared.clone().ok_or(EngineError::NoScene)?;
-        let mesh = self.mesh.as_ref().ok_or_else(|| missing("mesh vertices"))?;
-        let params = shadow_params(&prepared, wanted);
-        let of_pose = (&*wanted.pose, &wanted.hidden);
-        let to_grid = prepared.grid.grid_from_world();
-        let posed = PosedMesh::new(&self.gpu, mesh, &mut self.light.matrices, of_pose, &to_grid)?;
-        let kept = self.light.maps.iter().map(|map| (map.params.count, map.params.size_px));
-        if !kept.eq(params.iter().map(|params| (params.count, params.size_px))) {
-            // The old ones go first: both at once might not fit.
-            self.light.maps.clear();
-            for params in &params {
-                self.light.maps.push(ShadowMap::new(&self.gpu, *params)?);
-            }
-        }
-        for (map, params) in self.light.maps.iter_mut().zip(params) {
-            map.params = params;
-            map.record(&self.gpu, &mut frame, &posed);
-        }
         Ok(frame)
     }
 
@@ -188,7 +100,7 @@ impl Engine {
                 Some(map) => map,
                 None => &no_map(gpu, &mut self.light.no_map)?,
             };
-            let light = LightParams::new(light, &grid, lighting.shadow_offset_voxels);
+            let light = LightParams::new(light, &grid, lighting.offset_voxels());
             illuminate::record(gpu, &mut frame, &octree, &direct, &light, (lighting.shadows, map));
         }
         Ok(frame)
@@ -242,12 +154,7 @@ impl Engine {
         let octree = self.lit_octree()?;
         let light = self.light.buffers.light.made("light")?;
         let lighting = &wanted.settings.lighting;
-        let cones = Cones {
-            count: lighting.cones,
-            aperture_degrees: lighting.cone_degrees,
-            start_cells: lighting.shadow_offset_voxels,
-            ..Cones::default()
-        };
+        let cones = Cones { count: lighting.cones, aperture_degrees: lighting.cone_degrees, ..Cones::default() };
         let params = ConeParams::new(&cones, lighting.sky_nits.map(|channel| channel as f32));
         gather::record(&self.gpu, &mut frame, &octree, (&light, lighting.opacity), (gathered, &params), irradiance);
         Ok(frame)

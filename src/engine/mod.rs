@@ -9,6 +9,7 @@
 //! playing animation always shows something.
 
 mod built_octree;
+mod error;
 mod inspect;
 mod light;
 mod light_views;
@@ -21,45 +22,33 @@ mod report;
 mod run;
 mod sample;
 mod scene_on_gpu;
+mod shadows;
 mod steps;
+mod wanted;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::data::octree::{PointerLayout, Slot};
+use crate::data::octree::Slot;
 use crate::data::pages::SegmentOrder;
 use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, GpuTexture, KernelTiming};
-use crate::lights::{PosedLight, posed_lights};
-use crate::plan::{self, Changes, FramePlan, SceneFacts};
-use crate::prepare::{ExactVoxels, FrameMatrices, MotionError, Prepared};
-use crate::scene::Pose;
-use crate::settings::{ColorBy, Filter, Hidden, Look, Settings, View, VisibilityError};
-use crate::stages::fill::number_objects::OBJECT_MASK;
+use crate::lights;
+use crate::plan::{self, FramePlan};
+use crate::prepare::{ExactVoxels, Prepared};
+use crate::settings::Filter;
 use crate::stages::mesh::MeshScene;
 use crate::stages::view::Picture;
 
 pub use built_octree::BuiltOctree;
+pub use error::EngineError;
 pub use inspect::{NodeAddress, NodeFacts, StoredNode};
-use light::{LightOnGpu, LitBy, ShadowedBy};
+use light::LightOnGpu;
 use picture::ExactMasks;
 pub use read_voxels::WorldVoxels;
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 use run::{Comparison, FrameTimings, Running};
 use scene_on_gpu::SceneOnGpu;
-
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum EngineError {
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    #[error(transparent)]
-    Motion(#[from] MotionError),
-    #[error(transparent)]
-    Visibility(#[from] VisibilityError),
-    #[error("no scene is open")]
-    NoScene,
-    #[error("{scene} has {objects} objects, and colour by object can tell {OBJECT_MASK} apart; choose another colour")]
-    TooManyObjects { scene: String, objects: usize },
-}
+use wanted::{Done, Wanted};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EngineState {
@@ -91,53 +80,6 @@ pub struct Engine {
     mesh_matrices: Slot,
     mesh_depth: Option<GpuTexture>,
     timings: FrameTimings,
-}
-
-/// One request, with its pose folded.
-#[derive(Clone, Debug)]
-struct Wanted {
-    settings: Settings,
-    size_px: [u32; 2],
-    pose: Arc<Pose>,
-    lights: Vec<PosedLight>,
-    frame: FrameMatrices,
-    hidden: Hidden,
-    facts: SceneFacts,
-}
-
-impl Wanted {
-    fn lit_by(&self) -> LitBy {
-        LitBy { lights: self.lights.clone(), lighting: self.settings.lighting.clone() }
-    }
-
-    /// Nothing of the scene is in the picture: all of it is hidden, or outside the grid.
-    fn shows_nothing(&self) -> bool {
-        match self.settings.look.view {
-            View::Mesh => self.facts.triangles == 0,
-            View::ShadowMap => self.facts.triangles == 0 || self.facts.lights == 0,
-            View::Voxels | View::Ghost | View::Slice => self.facts.voxels() == 0,
-        }
-    }
-}
-
-/// What the results on the GPU were made from; `None` where there is none, or it is out of date.
-#[derive(Clone, Debug, Default)]
-struct Done {
-    /// World voxels follow the matrices that `scene` holds.
-    moved: bool,
-    octree: Option<(Filter, u32)>,
-    object_numbers: bool,
-    other: Option<(Filter, u32)>,
-    compared: Option<Arc<ExactVoxels>>,
-    view: Option<(Look, [u32; 2])>,
-    /// What the mesh view last drew.
-    mesh_frame: Option<(FrameMatrices, Hidden)>,
-    exact_masks: Option<Arc<ExactVoxels>>,
-    links: Vec<PointerLayout>,
-    emission: bool,
-    shadows: Option<ShadowedBy>,
-    light: Option<LitBy>,
-    irradiance: bool,
 }
 
 impl Engine {
@@ -203,26 +145,6 @@ impl Engine {
         self.exact = exact;
     }
 
-    /// What is wanted now. Cheap: the frame begins with the next [`Self::advance`].
-    pub fn request(&mut self, settings: &Settings, size_px: [u32; 2]) -> Result<(), EngineError> {
-        let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
-        check_object_numbers(prepared, &settings.look)?;
-        let hidden = prepared.hidden(&settings.visibility)?;
-        let frame = prepared.fold(&settings.motion, settings.discretization.anchor, &hidden)?;
-        let pose = Arc::new(prepared.pose(&settings.motion)?);
-        let shown = settings.visibility.shown_nodes(&prepared.scene)?;
-        let emits = prepared.brightest_emission > 0.0 && settings.lighting.emission > 0.0;
-        let lights = posed_lights(&prepared.scene, &pose, &settings.lighting, &shown, emits);
-        let facts = SceneFacts { lights: lights.len() as u32, ..scene_on_gpu::facts(prepared, &frame, &hidden) };
-        // A picture has at least one pixel.
-        let size_px = size_px.map(|size| size.max(1));
-        self.wanted = Some(Wanted { settings: settings.clone(), size_px, pose, lights, frame, hidden, facts });
-        if self.running.is_none() {
-            self.make_plan();
-        }
-        Ok(())
-    }
-
     /// Nothing of the scene is in the picture that was requested: all of it is hidden, or outside the grid.
     pub fn shows_nothing(&self) -> bool {
         self.wanted.as_ref().is_some_and(Wanted::shows_nothing)
@@ -233,49 +155,24 @@ impl Engine {
         self.done.octree.is_some() && self.wanted.as_ref().is_some_and(|wanted| wanted.facts.voxels() > 0)
     }
 
-    /// Objects that the requested pose cannot show, a sentence each.
+    /// Objects that the requested pose cannot show, lights that are nowhere in it, and a shadow map that is not there, a
+    /// sentence each.
     pub fn left_out(&self) -> Vec<String> {
         let (Some(prepared), Some(wanted)) = (&self.prepared, &self.wanted) else { return Vec::new() };
         let name = |&object: &usize| &prepared.objects[object].object.name;
         let objects = wanted.frame.left_out.iter().map(name);
-        objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite")).collect()
+        let objects =
+            objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite"));
+        let (scene, settings) = (&prepared.scene, &wanted.settings);
+        // A request with nodes that are not there was refused.
+        let shown = settings.visibility.shown_nodes(scene).unwrap_or_default();
+        let lost = lights::left_out(scene, &wanted.pose, &settings.lighting, &shown);
+        objects.chain(lost).chain(wanted.missing_map()).collect()
     }
 
     fn make_plan(&mut self) {
         let Some(wanted) = &self.wanted else { return };
         self.plan = plan::plan(&wanted.facts, &self.changes(wanted), &wanted.settings);
-    }
-
-    fn changes(&self, wanted: &Wanted) -> Changes {
-        let discretization = &wanted.settings.discretization;
-        let key = (discretization.filter, discretization.dense_level());
-        let other = (other_filter(discretization.filter), discretization.dense_level());
-        let of_frame = self.scene.as_ref().map(|scene| scene.changes(&wanted.frame)).unwrap_or_default();
-        let fresh = |done: &Option<Arc<ExactVoxels>>| match (&self.exact, done) {
-            (Some(exact), Some(done)) => !Arc::ptr_eq(exact, done),
-            (exact, done) => exact.is_some() != done.is_some(),
-        };
-        let drawn = self.done.mesh_frame.as_ref();
-        let mesh_moved = wanted.settings.look.view == View::Mesh
-            && drawn.is_none_or(|(frame, hidden)| *frame != wanted.frame || *hidden != wanted.hidden);
-        Changes {
-            caches: self.scene.is_none(),
-            residents: of_frame.residents,
-            rigid_poses: of_frame.rigid_poses || !self.done.moved,
-            skinned_poses: of_frame.skinned_poses || !self.done.moved,
-            octree: self.done.octree != Some(key),
-            other_octree: self.done.other != Some(other),
-            exact: fresh(&self.done.compared),
-            exact_masks: fresh(&self.done.exact_masks),
-            exact_known: self.exact.is_some(),
-            view: self.done.view != Some((wanted.settings.look, wanted.size_px)) || mesh_moved,
-            object_numbers: !self.done.object_numbers,
-            links: self.links_missing(wanted),
-            emission: !self.done.emission,
-            shadow_maps: self.shadows_changed(wanted),
-            lighting: self.done.light.as_ref() != Some(&wanted.lit_by()),
-            irradiance: !self.done.irradiance,
-        }
     }
 
     pub fn plan(&self) -> &FramePlan {
@@ -330,15 +227,6 @@ impl Engine {
     pub fn memory(&self) -> Vec<BufferUse> {
         self.gpu.memory()
     }
-}
-
-/// A leaf stores its object in 16 bits, of which the largest number stands for none.
-fn check_object_numbers(prepared: &Prepared, look: &Look) -> Result<(), EngineError> {
-    let objects = prepared.objects.len();
-    if look.view == View::Voxels && look.color == ColorBy::Object && objects > OBJECT_MASK as usize {
-        return Err(EngineError::TooManyObjects { scene: prepared.scene.name.clone(), objects });
-    }
-    Ok(())
 }
 
 fn other_filter(filter: Filter) -> Filter {

@@ -24,8 +24,9 @@ pub struct Lighting {
     pub shadows: Shadows,
     /// Texels along an edge of a shadow map; half as many on the faces around a point light.
     pub shadow_map_px: u32,
-    /// How far above its surface a leaf looks for what hides the light, in voxels.
-    pub shadow_offset_voxels: f64,
+    /// How far above its surface a leaf looks for what hides the light, in voxels; `None`: what errs least,
+    /// see [`Self::offset_voxels`].
+    pub shadow_offset_voxels: Option<f64>,
     pub opacity: Opacity,
     /// How often light goes on from leaf to leaf after it has met the first.
     pub bounces: u32,
@@ -45,7 +46,7 @@ impl Default for Lighting {
             emission: 1.0,
             shadows: Shadows::default(),
             shadow_map_px: 2048,
-            shadow_offset_voxels: 1.5,
+            shadow_offset_voxels: None,
             opacity: Opacity::default(),
             bounces: 0,
             cones: 8,
@@ -126,6 +127,16 @@ impl Lighting {
         (1..).map(name).find(is_free).unwrap_or_default()
     }
 
+    /// How far above its surface a leaf looks for what hides the light. Measured against rays through the
+    /// posed triangles: less puts leaves into their own shadow, more lets light under what stands on them.
+    pub fn offset_voxels(&self) -> f64 {
+        self.shadow_offset_voxels.unwrap_or(match self.shadows {
+            Shadows::Map | Shadows::Off => 0.5,
+            // A march has to leave the leaf itself.
+            Shadows::March => 1.0,
+        })
+    }
+
     /// Are all values in range? If not, the sentence names value and range.
     pub(super) fn check(&self) -> Result<(), String> {
         check_direction("the sun", self.sun.direction)?;
@@ -149,8 +160,8 @@ impl Lighting {
             let sizes = Self::SHADOW_MAPS_PX;
             return Err(format!("a shadow map of {} texels is not one of {sizes:?}", self.shadow_map_px));
         }
-        if !Self::SHADOW_OFFSETS_VOXELS.contains(&self.shadow_offset_voxels) {
-            return Err(format!("a shadow offset of {} voxels is not in 0 to 16", self.shadow_offset_voxels));
+        if let Some(offset) = self.shadow_offset_voxels.filter(|offset| !Self::SHADOW_OFFSETS_VOXELS.contains(offset)) {
+            return Err(format!("a shadow offset of {offset} voxels is not in 0 to 16"));
         }
         if self.bounces > Self::MAX_BOUNCES {
             return Err(format!("{} bounces are not in 0 to {}", self.bounces, Self::MAX_BOUNCES));

@@ -145,6 +145,35 @@ fn views_of_light_out_of_range_are_wrong_usage() {
 }
 
 #[test]
+fn light_and_slices_are_drawn_and_a_shadow_map_that_is_not_there_is_told() {
+    let scenes = Scenes::new();
+    let file = scenes.path("view.png");
+    let draw = |options: &[&str]| {
+        let start = ["render", "courtyard", "--size", "64x48", "-o", file.to_str().expect("UTF-8")];
+        let output = on_small_grid(start.iter().chain(options));
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{options:?}: {errors}");
+        (image::open(&file).expect("a picture").to_rgba8().into_raw(), errors)
+    };
+    let looks: [&[&str]; 10] = [
+        &["--view", "radiance"],
+        &["--view", "radiance:4"],
+        &["--view", "radiance", "--light", "sun:off", "--sky", "1,1,2"],
+        &["--view", "radiance", "--exposure", "-3"],
+        &["--view", "radiance", "--shadows", "off"],
+        &["--view", "irradiance"],
+        &["--view", "shadow-map"],
+        &["--slice", "y:0.2"],
+        &["--slice", "y:0.2", "--slice-value", "occupancy"],
+        &["--slice", "y:0.2", "--width", "8"],
+    ];
+    let pictures: std::collections::HashSet<Vec<u8>> = looks.iter().map(|look| draw(look).0).collect();
+    assert_eq!(pictures.len(), looks.len(), "every one is another picture");
+    let (_, warnings) = draw(&["--view", "shadow-map:7"]);
+    assert!(warnings.contains("there is no shadow map 7: they are 0 to 0, and 0 is shown"), "{warnings}");
+}
+
+#[test]
 fn shadows_of_no_light_cannot_be_compared() {
     let scenes = Scenes::new();
     let scene = scenes.still_box();

@@ -60,7 +60,7 @@ impl LightRig {
         let mut buffers = OctreeBuffers::default();
         let built = World::given(gpu, &words).build_in(gpu, shape, &mut buffers);
         let octree = LitOctree::new(&built.params, &buffers).unwrap_or_else(|error| panic!("{error}"));
-        let slots = rules::leaf_slots(&built).into_iter().collect();
+        let slots = rules::leaf_slots(&built).collect();
         Self { built, octree, slots }
     }
 

@@ -1,9 +1,13 @@
 //! Which lights a pose has, where they are, and why the others do not shine.
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use glam::{DMat4, DQuat, DVec3};
+use octolume::engine::Engine;
 use octolume::lights::{KnownLight, LightSource, PosedLight, Shines, known_lights, left_out, posed_lights, sun_shines};
+use octolume::prepare::prepare;
+use octolume::progress::Progress;
 use octolume::scene::animation::{Channel, Clip, Interpolation, Property};
 use octolume::scene::{Light, LightKind, LocalTransform, Node, Scene, Trs};
 use octolume::settings::Lighting;
@@ -192,4 +196,22 @@ fn a_light_without_a_finite_place_or_direction_is_left_out_and_named() {
         [format!("light \"warm\" of node \"bulb\" {cause}"), format!("light \"beam\" of node \"spot\" {cause}"),]
     );
     assert!(left_out(&scene, &pose, &lighting(), &[true, false, false, true]).is_empty(), "hidden ones are not missed");
+}
+
+#[test]
+fn the_engine_names_lights_that_are_nowhere() {
+    let mut scene = crate::scenes::cube_scene(Trs::default());
+    scene.lights = street().lights;
+    scene.nodes.push(node("lost", None, Some(0), at(f64::NAN, 0.0, 0.0)));
+    let mut settings = octolume::settings::Settings::default();
+    settings.discretization.grid = 64;
+    let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default()).expect("it fits");
+    let mut engine = Engine::new(Arc::new(crate::device::open()));
+    engine.set_prepared(Some(Arc::new(prepared)));
+    engine.request(&settings, [1, 1]).expect("a request");
+    let cause = "is left out: in this pose it has no finite place or no direction";
+    assert_eq!(engine.left_out(), [format!("light \"warm\" of node \"lost\" {cause}")]);
+    settings.visibility.hidden.insert(1);
+    engine.request(&settings, [1, 1]).expect("a request");
+    assert!(engine.left_out().is_empty(), "hidden ones are not missed");
 }

@@ -4,7 +4,8 @@ use glam::DVec3;
 use octolume::plan::{Changes, Pass, SceneFacts, State, plan};
 use octolume::scene::{Light, LightKind, Material, OrbitCamera, Scene, Trs};
 use octolume::settings::lighting::{LightEdit, Opacity, Shadows, SunShines};
-use octolume::settings::{ColorBy, Lookup, Settings, SliceValue, View};
+use octolume::settings::{ColorBy, Lookup, Sampling, Settings, SliceValue, View};
+use octolume::stages::sample::Sampler;
 
 use crate::plan::{Counted, FIRST, RIGID, STILL, reason, running};
 use crate::scenes::{cube_scene, node, sliding_scene};
@@ -182,6 +183,22 @@ fn emission_is_gathered_once_a_build() {
     let mean = 0.18 / shown;
     let expected = octolume::color::luminance([8.0, 4.0, 0.0]);
     assert!((mean - expected).abs() < 1e-3 * expected, "{mean} is not {expected}");
+}
+
+#[test]
+fn the_camera_changes_no_bit_of_light() {
+    let mut counted = Counted::new(lamp_scene());
+    counted.settings = Settings { discretization: counted.settings.discretization, ..radiance() };
+    counted.settings.lighting.bounces = 1;
+    counted.frame();
+    let places = [[32.0, 32.0, 32.0, 4.0], [20.0, 31.0, 30.0, 1.0], [16.5, 40.0, 16.5, 9.0]];
+    let sampler = Sampler { sampling: Sampling::Quadrilinear, ..Sampler::default() };
+    let sampled = |counted: &Counted| counted.engine.sample(&sampler, [0.0, 1.0, 0.0], &places).expect("light").0;
+    let before = sampled(&counted);
+    counted.settings.look.camera = Some(OrbitCamera::default());
+    counted.frame();
+    assert_eq!(sampled(&counted), before);
+    assert!(before.iter().any(|sample| sample[0] > 0.0));
 }
 
 #[test]

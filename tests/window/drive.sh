@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Drives the real window by mouse and keyboard on a display of its own: filter, timeline, level,
-# view, scene tree and screenshot. Photographs every step into FOLDER. Fails if the window does not open, a
+# view, scene tree, lights, slice, pointers of a node and screenshot. Photographs every step into FOLDER. Fails if the window does not open, a
 # photo is uniform, or a control that must change the picture does not.
 #
 #   tests/window/drive.sh PROGRAM SCENE FOLDER
@@ -16,11 +16,18 @@ folder=$(realpath "$3")
 
 # Places in a window of 1440 x 900, as it opens.
 readonly NEAREST="133 470" SPLIT="230 470" MEASURE="15 661"
-readonly VOXELS="114 729" MESH="164 729" GHOST="211 729"
-readonly LEVEL_LEAVES="214 753" LEVEL_MIDDLE="150 753"
+readonly VOXELS="114 763" MESH="164 763" GHOST="211 763"
+readonly LEVEL_LEAVES="214 812" LEVEL_MIDDLE="150 812"
 readonly TIME_START="342 882" TIME_MIDDLE="700 882"
 readonly TREE_SECOND_ROW="400 93"
 readonly VIEW_MIDDLE="690 460" VIEW_ASIDE="810 520" SCREENSHOT="1278 17"
+# With Scene, Discretization and Filter folded, and Light unfolded.
+readonly FILTER="15 440" DISCRETIZATION="15 274" SCENE="15 46" LIGHT="15 148"
+readonly FIRST_LIGHT="16 176" SKY="120 278"
+readonly COLOR="145 660" RADIANCE="128 806" VOXELS_BELOW="114 564" SLICE="110 588" SHADOW_MAP="173 588"
+readonly HEIGHT_MIDDLE="155 636" HEIGHT_LOW="110 636"
+# With Timings folded, and the node's section unfolded; its rows are those of a lit node.
+readonly TIMINGS="1107 46" NODE="1107 81" DRAW_POINTERS="1106 105" FIRST_CHILD="1200 283" ABOVE="1200 371"
 # The picture alone, without the texts over it.
 readonly VIEW=770x740+300+80
 readonly PATIENCE_SECS=120
@@ -44,6 +51,13 @@ difference() {
     { compare -metric AE "$folder/$1.view.png" "$folder/$2.view.png" null: 2>&1 || true; } | awk '{ printf "%d", $1 }'
 }
 
+# Whether the top bar tells of work that goes on: in the green of its progress bar.
+is_working() {
+    local green
+    green=$(convert "$folder/$1.png" -crop 500x24+204+5 +repage -fx 'g - r > 0.25' -format '%[fx:maxima]' info:)
+    [[ $green != 0 ]]
+}
+
 # Photographs until the whole window stays the same for a while: nothing is built or drawn any more.
 photograph_at_rest() {
     local until=$((SECONDS + PATIENCE_SECS)) still=0 last="" now
@@ -53,7 +67,7 @@ photograph_at_rest() {
         sleep 0.5
         photograph "$1"
         now=$(convert "$folder/$1.png" rgb:- | sha256sum)
-        if [[ $now == "$last" ]]; then still=$((still + 1)); else still=0; fi
+        if [[ $now == "$last" ]] && ! is_working "$1"; then still=$((still + 1)); else still=0; fi
         last=$now
     done
     crop "$1"
@@ -82,6 +96,13 @@ click() { xdotool mousemove $1 sleep 0.5 click 1 sleep 0.5 mousemove 1200 860; }
 drag() {
     xdotool mousemove $1 sleep 0.5 mousedown 1 sleep 0.5 mousemove $2 sleep 0.5 mouseup 1 sleep 0.5 mousemove 1200 860
 }
+
+# Into the number at a place.
+enter() { click "$1"; xdotool type --delay 100 "$2"; xdotool key Return; }
+
+alt_click() { xdotool mousemove $1 sleep 0.5 keydown alt sleep 0.5 click 1 sleep 0.5 keyup alt sleep 0.5 mousemove 1200 860; }
+
+zoom_in() { xdotool mousemove $1 sleep 0.5 click --repeat 12 --delay 100 4 sleep 0.5 mousemove 1200 860; }
 
 Xvfb -displayfd 3 -screen 0 1440x900x24 3>"$folder/display" 2>/dev/null &
 server=$!
@@ -123,7 +144,24 @@ xdotool key ctrl+z; photograph_at_rest 18-undone; must_equal 16-isolated 18-undo
 xdotool key alt+h; photograph_at_rest 19-shown; must_equal 14-tree 19-shown
 xdotool key t; photograph_at_rest 20-folded; must_equal 13-framed 20-folded
 
-click "$SCREENSHOT"; sleep 1; xdotool key ctrl+s; photograph_at_rest 21-saved
+for section in "$FILTER" "$DISCRETIZATION" "$SCENE" "$LIGHT"; do click "$section"; done
+photograph_at_rest 21-sections; must_equal 20-folded 21-sections
+click "$COLOR"; click "$RADIANCE"; photograph_at_rest 22-radiance; must_change 21-sections 22-radiance
+enter "$SKY" 2; photograph_at_rest 23-sky; must_change 22-radiance 23-sky
+click "$FIRST_LIGHT"; photograph_at_rest 24-light-off; must_change 23-sky 24-light-off
+click "$FIRST_LIGHT"; photograph_at_rest 25-light-on; must_equal 23-sky 25-light-on
+click "$SLICE"; photograph_at_rest 26-slice; must_change 25-light-on 26-slice
+drag "$HEIGHT_MIDDLE" "$HEIGHT_LOW"; photograph_at_rest 27-slice-moved; must_change 26-slice 27-slice-moved
+click "$SHADOW_MAP"; photograph_at_rest 28-shadow-map; must_change 27-slice-moved 28-shadow-map
+click "$VOXELS_BELOW"; photograph_at_rest 29-voxels; must_equal 25-light-on 29-voxels
+
+zoom_in "$VIEW_MIDDLE"; photograph_at_rest 30-near; must_change 29-voxels 30-near
+click "$TIMINGS"; click "$NODE"; click "$DRAW_POINTERS"; alt_click "$VIEW_MIDDLE"
+photograph_at_rest 31-node; must_change 30-near 31-node
+click "$ABOVE"; photograph_at_rest 32-above; must_change 31-node 32-above
+click "$FIRST_CHILD"; photograph_at_rest 33-child; must_change 32-above 33-child
+
+click "$SCREENSHOT"; sleep 1; xdotool key ctrl+s; photograph_at_rest 34-saved
 shots=("$folder"/octolume-*.png)
 ((${#shots[@]} == 2)) || fail "two screenshots were asked for, there are ${#shots[@]}"
 for shot in "${shots[@]}"; do

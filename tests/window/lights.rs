@@ -91,7 +91,7 @@ fn sky_shadows_and_bounces_are_set() {
     window.set("Cones", 16.0);
     window.set("Aperture", 40.0);
     let set = lighting(&window);
-    assert_eq!((set.emission, set.shadow_map_px, set.shadow_offset_voxels), (2.5, 512, 3.0));
+    assert_eq!((set.emission, set.shadow_map_px, set.shadow_offset_voxels), (2.5, 512, Some(3.0)));
     assert_eq!((set.shadows, set.opacity), (Shadows::March, Opacity::Directional));
     assert_eq!((set.bounces, set.cones, set.cone_degrees), (2, 16, 40.0));
     window.click("None");
@@ -131,7 +131,7 @@ fn slices_shadow_maps_and_exposure_are_set() {
 #[test]
 fn looking_at_settings_changes_none_of_them() {
     let mut settings = crate::rig::small_grid();
-    settings.lighting.shadow_offset_voxels = 1.234_567_8;
+    settings.lighting.shadow_offset_voxels = Some(1.234_567_8);
     settings.lighting.cone_degrees = 33.333_333;
     settings.lighting.sky_nits = [1e12, 0.123_456_789, 3.0];
     settings.look.slice.height = 0.123_456_789;

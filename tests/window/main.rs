@@ -3,6 +3,7 @@
 mod controls;
 mod files;
 mod lights;
+mod node;
 mod opening;
 mod rig;
 mod tree;

@@ -78,7 +78,15 @@ fn shadows_ui(ui: &mut Ui, lighting: &mut Lighting) {
         let tip = "How far above its surface a voxel looks for what hides the light, in voxels: less shows every \
                    step of the voxels, more lets light under thin things.";
         control(ui, "Offset", tip, |ui| {
-            ui.add(slider(&mut lighting.shadow_offset_voxels, Lighting::SHADOW_OFFSETS_VOXELS).max_decimals(2))
+            let mut automatic = lighting.shadow_offset_voxels.is_none();
+            let mut offset = lighting.offset_voxels();
+            let response = ui.add(slider(&mut offset, Lighting::SHADOW_OFFSETS_VOXELS).max_decimals(2));
+            automatic &= !response.changed();
+            ui.checkbox(&mut automatic, "Auto").on_hover_text("The offset that errs least against rays.");
+            if response.changed() || automatic != lighting.shadow_offset_voxels.is_none() {
+                lighting.shadow_offset_voxels = (!automatic).then_some(offset);
+            }
+            response
         });
     });
 }

@@ -6,21 +6,15 @@ use std::collections::BTreeMap;
 use anyhow::Context;
 use octolume::gpu::KernelTiming;
 use octolume::settings::lighting::{Opacity, Shadows};
-use octolume::settings::{ColorBy, Lookup, Sampling, Settings, View};
-use octolume::stages::sample::Sampler;
+use octolume::settings::{ColorBy, Lookup, Settings, View};
 use serde::Serialize;
 
 use super::cost::{Cost, HEADS, Samples};
+use super::sampling::{self, SamplingCost};
 use crate::cli::output;
 use crate::cli::session::{NO_PICTURE, Session};
-use crate::cli::statistics::Spread;
 
-/// Points that are sampled at once.
-const POINTS: usize = 1 << 20;
-/// Widths of quadrilinear samples go up to this many cells, evenly by their logarithm.
-const WIDEST_LOG2: f64 = 5.0;
-/// Runs of a sampling variant, and of cones, which take seconds each without a fast GPU.
-const SAMPLE_RUNS: u32 = 5;
+/// Runs of cones, which take seconds each without a fast GPU.
 const CONE_RUNS: u32 = 1;
 
 #[derive(Serialize)]
@@ -28,18 +22,6 @@ pub struct LightReport {
     passes: Vec<Cost>,
     sampling: Vec<SamplingCost>,
     memory: MemoryReport,
-}
-
-#[derive(Serialize)]
-struct SamplingCost {
-    sampling: Sampling,
-    lookup: Lookup,
-    /// Near occupied leaves, or anywhere in the grid.
-    near_leaves: bool,
-    #[serde(flatten)]
-    time: Spread,
-    million_samples_per_s: f64,
-    bytes: u64,
 }
 
 /// Bytes of the octree on screen and of its light, and how many a node has.
@@ -130,7 +112,7 @@ pub fn measure(
         }
     }
     session.run(&lit, NO_PICTURE)?;
-    let sampling = measure_sampling(session, &lit)?;
+    let sampling = sampling::measure(session, &lit)?;
     let memory = memory(session)?;
     Ok(LightReport { passes, sampling, memory })
 }
@@ -154,55 +136,6 @@ fn measure_variant(
     Ok(samples)
 }
 
-fn measure_sampling(session: &Session, settings: &Settings) -> anyhow::Result<Vec<SamplingCost>> {
-    let mut costs = Vec::new();
-    let cells = session.engine.read_voxels()?.cells;
-    for near_leaves in [true, false] {
-        let places = places(&cells, settings.discretization.grid, near_leaves);
-        for sampling in [Sampling::Nearest, Sampling::Trilinear, Sampling::Quadrilinear] {
-            let points = points(&places, sampling, settings.discretization.depth());
-            for lookup in [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers] {
-                let sampler = Sampler { sampling, lookup, opacity: settings.lighting.opacity };
-                let mut samples = Samples::default();
-                for run in 0..=SAMPLE_RUNS {
-                    let Ok((_, timings)) = session.engine.sample(&sampler, [0.0, 1.0, 0.0], &points) else { break };
-                    if run > 0 {
-                        samples.add(timings.iter());
-                    }
-                }
-                // Without pointers, which may not have fitted, there is nothing to measure.
-                let Some(time) = Spread::of(&samples.ms) else { continue };
-                let million_samples_per_s = points.len() as f64 / time.median_ms / 1e3;
-                let bytes = samples.bytes;
-                costs.push(SamplingCost { sampling, lookup, near_leaves, time, million_samples_per_s, bytes });
-            }
-        }
-    }
-    Ok(costs)
-}
-
-/// Places that follow no order in memory: multiples of irrational steps.
-fn places(cells: &[[i32; 3]], grid: u32, near_leaves: bool) -> Vec<[f64; 3]> {
-    const STEPS: [f64; 4] =
-        [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3, 0.450_305_837_593_146];
-    let place = |i: usize| {
-        let [x, y, z, which] = STEPS.map(|step| (i as f64 * step).fract());
-        match cells.get((which * cells.len() as f64) as usize) {
-            Some(cell) if near_leaves => [f64::from(cell[0]) + x, f64::from(cell[1]) + y, f64::from(cell[2]) + z],
-            _ => [x, y, z].map(|share| share * f64::from(grid)),
-        }
-    };
-    (0..POINTS).map(place).collect()
-}
-
-fn points(places: &[[f64; 3]], sampling: Sampling, depth: u32) -> Vec<[f32; 4]> {
-    let at = |i: usize| match sampling {
-        Sampling::Quadrilinear => (i as f64 / places.len() as f64 * WIDEST_LOG2).exp2(),
-        Sampling::Nearest | Sampling::Trilinear => f64::from(depth),
-    };
-    places.iter().enumerate().map(|(i, [x, y, z])| [*x as f32, *y as f32, *z as f32, at(i) as f32]).collect()
-}
-
 fn memory(session: &Session) -> anyhow::Result<MemoryReport> {
     let report = session.engine.octree_report().context("there is no octree")?;
     let nodes = report.levels.iter().map(|level| level.nodes).sum::<u64>();
@@ -222,8 +155,7 @@ fn memory(session: &Session) -> anyhow::Result<MemoryReport> {
 impl LightReport {
     pub fn text(&self) -> String {
         let passes = output::table(&HEADS, self.passes.iter().map(Cost::row));
-        let heads = ["sampling", "nodes found by", "where", "median ms", "million samples/s"];
-        let sampling = output::table(&heads, self.sampling.iter().map(SamplingCost::row));
+        let sampling = output::table(&sampling::HEADS, self.sampling.iter().map(SamplingCost::row));
         let m = &self.memory;
         format!(
             "{passes}\n\n{sampling}\n\n{} nodes: {} bytes of octree, {} of light, {} of pointers a block ({} a node); \
@@ -236,22 +168,5 @@ impl LightReport {
             m.bytes_per_node,
             m.bytes_per_node_with_node_pointers,
         )
-    }
-}
-
-impl SamplingCost {
-    fn row(&self) -> Vec<String> {
-        let lookup = match self.lookup {
-            Lookup::Ranks => "ranks",
-            Lookup::BlockPointers => "pointers a block",
-            Lookup::NodePointers => "pointers a node",
-        };
-        vec![
-            format!("{:?}", self.sampling).to_lowercase(),
-            lookup.to_owned(),
-            if self.near_leaves { "at leaves" } else { "anywhere" }.to_owned(),
-            format!("{:.1}", self.time.median_ms),
-            format!("{:.1}", self.million_samples_per_s),
-        ]
     }
 }

@@ -5,6 +5,7 @@
 
 mod cost;
 mod light;
+mod sampling;
 
 use std::path::PathBuf;
 use std::time::{Instant, SystemTime};
