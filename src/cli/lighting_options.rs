@@ -34,7 +34,7 @@ pub struct LightingOptions {
     /// How a voxel learns whether a light reaches it; otherwise map
     #[arg(long, value_name = "map|march|off", value_parser = values::name::<Shadows>)]
     shadows: Option<Shadows>,
-    /// Texels along an edge of a shadow map: 512, 1024, 2048, 4096 or 8192; otherwise 1024
+    /// Texels along an edge of a shadow map: 512, 1024, 2048, 4096 or 8192; otherwise 2048
     #[arg(long, value_name = "PX")]
     shadow_map: Option<u32>,
     /// How far above its surface a voxel looks for what hides the light, in voxels; otherwise 0.5, or 1 where shadows are marched

@@ -45,7 +45,7 @@ impl Default for Lighting {
             sky_nits: [0.0; 3],
             emission: 1.0,
             shadows: Shadows::default(),
-            shadow_map_px: 1024,
+            shadow_map_px: 2048,
             shadow_offset_voxels: None,
             opacity: Opacity::default(),
             bounces: 0,
