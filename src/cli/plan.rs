@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use octolume::settings::{ColorBy, Filter, Settings};
 
+use super::look_options::LookOptions;
 use super::options::{Common, Moment};
 use super::session::{NO_PICTURE, Session};
 use super::{Usage, output};
@@ -20,6 +21,8 @@ pub struct Plan {
     /// Plans the second frame after this change; otherwise the first
     #[arg(long, value_name = "CHANGE")]
     after: Option<Change>,
+    #[command(flatten)]
+    look: LookOptions,
     #[command(flatten)]
     moment: Moment,
     #[command(flatten)]
@@ -43,12 +46,15 @@ enum Change {
     DenseLevel,
     /// Colour by another property
     Color,
+    /// Our sun and all that emits are half as bright
+    Light,
 }
 
 impl Plan {
     pub fn run(&self) -> anyhow::Result<()> {
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
+        self.look.apply(&mut settings.look);
         settings.check().map_err(Usage)?;
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         session.engine.request(&settings, NO_PICTURE)?;
@@ -71,7 +77,7 @@ impl Plan {
 
 impl Change {
     fn apply(self, settings: &mut Settings) {
-        let Settings { discretization, motion, look, .. } = settings;
+        let Settings { discretization, motion, look, lighting, .. } = settings;
         match self {
             Self::Still => {}
             Self::Camera => look.camera.get_or_insert_default().orbit(0.1, 0.0),
@@ -86,6 +92,10 @@ impl Change {
             Self::DenseLevel => {
                 let level = discretization.dense_level();
                 discretization.dense_level = if level == 0 { 1 } else { level - 1 };
+            }
+            Self::Light => {
+                lighting.emission *= 0.5;
+                lighting.sun.illuminance_lux *= 0.5;
             }
             Self::Color => {
                 let object = look.color == ColorBy::Object;

@@ -86,6 +86,33 @@ fn a_second_frame_does_only_what_changed() {
 }
 
 #[test]
+fn another_light_is_injected_and_averaged_alone() {
+    let scenes = Scenes::new();
+    let scene = scenes.turning_box();
+    let plan = |options: &[&str]| running(&report("plan", scene.as_os_str(), options));
+    let first = plan(&["--view", "radiance"]);
+    assert!(first.contains(&"draw-shadows".to_owned()) && first.contains(&"march-light".to_owned()), "{first:?}");
+    let ran = ["illuminate", "inject-light", "average-light", "march-light"];
+    assert_eq!(plan(&["--view", "radiance", "--after", "light"]), ran);
+    assert_eq!(plan(&["--after", "light"]), [""; 0], "nobody looks at it");
+}
+
+#[test]
+fn bench_measures_light_by_variant_where_asked() {
+    let scenes = Scenes::new();
+    let options = ["--warmup", "0", "--runs", "1", "--lighting"];
+    let bench = report("bench", scenes.turning_box().as_os_str(), &options);
+    let light = &bench["light"];
+    let passes: Vec<&str> =
+        light["passes"].as_array().expect("a list").iter().filter_map(|p| p["kernel"].as_str()).collect();
+    for kernel in ["build/link, pointers a node", "light/illuminate, marched shadows", "light/gather, a bounce"] {
+        assert!(passes.contains(&kernel), "{passes:?}");
+    }
+    assert_eq!(light["sampling"].as_array().expect("a list").len(), 18);
+    assert!(light["memory"]["bytes_per_node"].as_f64().is_some_and(|bytes| bytes > 0.0));
+}
+
+#[test]
 fn plan_reads_well_without_json() {
     let scenes = Scenes::new();
     let text = succeed([OsStr::new("plan"), scenes.bent_box().as_os_str()]);
