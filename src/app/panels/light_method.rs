@@ -78,6 +78,8 @@ fn shadows_ui(ui: &mut Ui, lighting: &mut Lighting) {
         let tip = "How far above its surface a voxel looks for what hides the light, in voxels: less shows every \
                    step of the voxels, more lets light under thin things.";
         control(ui, "Offset", tip, |ui| {
+            // Beside the box, within the width of the other rows: a wider panel would push the picture aside.
+            ui.spacing_mut().slider_width -= 60.0;
             let mut automatic = lighting.shadow_offset_voxels.is_none();
             let mut offset = lighting.offset_voxels();
             let response = ui.add(slider(&mut offset, Lighting::SHADOW_OFFSETS_VOXELS).max_decimals(2));
