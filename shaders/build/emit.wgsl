@@ -3,6 +3,7 @@
 // child pointer of the node above it, and for leaf blocks the number of occupied leaves.
 #import shared/threads.wgsl
 #import shared/block_rank.wgsl
+#import shared/leaf_mask.wgsl
 
 struct EmitParams {
     level: u32,
@@ -35,7 +36,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         block_keys[block] = key;
         first_child[node_index(level, key)] = octree.dense_node_count + 8u * block;
         if level + 1u == octree.depth {
-            let children = (leaf_bits[key >> 2u] >> (8u * (key & 3u))) & 0xffu;
+            let children = leaf_mask(key);
             let leaf_block = block - octree.levels[level].first_block;
             block_counts[2u * leaf_block] = 0u;
             block_counts[2u * leaf_block + 1u] = countOneBits(children);

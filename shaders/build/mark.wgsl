@@ -53,7 +53,7 @@ fn mark_split(q: vec3<i32>) -> u32 {
     var word = 0u;
     var mask = 0u;
     for (var corner = 0u; corner < 8u; corner += 1u) {
-        let offset = (vec3<u32>(corner) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
+        let offset = corner_offset(corner);
         let w = select(near, far, offset == vec3<u32>(1u));
         let weight = w.x * w.y * w.z;
         if weight == 0u {

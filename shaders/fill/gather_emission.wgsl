@@ -36,13 +36,9 @@ fn add_product(sum: vec2<u32>, weight: u32, value: u32) -> vec2<u32> {
     return wide_add(wide_add(sum, vec2<u32>(high << 12u, high >> 20u)), vec2<u32>(low, 0u));
 }
 
-fn wide_to_float(a: vec2<u32>) -> f32 {
-    return f32(a.y) * 4294967296.0 + f32(a.x);
-}
-
 // What reaches leaf number `leaf` of the block from one range of sorted voxels.
 fn add_range(before: EmissionSum, range: vec2<u32>, leaf: u32, block_cell: vec3<i32>) -> EmissionSum {
-    let offset = (vec3<u32>(leaf) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
+    let offset = corner_offset(leaf);
     var sum = before;
     for (var i = range.x; i < range.y; i += 1u) {
         let w = block_weights(sorted_voxels[i].xy, block_cell);
@@ -58,17 +54,6 @@ fn add_range(before: EmissionSum, range: vec2<u32>, leaf: u32, block_cell: vec3<
     return sum;
 }
 
-// Whether a source of the block holds a voxel that emits.
-fn emits(block_cell: vec3<i32>) -> bool {
-    for (var source = 0u; source < source_count(); source += 1u) {
-        let block = source_block(block_cell, source);
-        if block != NO_BLOCK && emitting_blocks[block] != 0u {
-            return true;
-        }
-    }
-    return false;
-}
-
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let block = thread_index(id, groups);
@@ -76,14 +61,24 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         return;
     }
     let block_cell = vec3<i32>(morton_cell(block_keys[octree.levels[octree.depth - 1u].first_block + block]));
-    if !emits(block_cell) {
+    // Looked up once for all leaves.
+    var ranges: array<vec2<u32>, 8>;
+    var emits = false;
+    for (var source = 0u; source < source_count(); source += 1u) {
+        let from_block = source_block(block_cell, source);
+        if from_block != NO_BLOCK {
+            ranges[source] = block_range(from_block);
+            emits = emits || emitting_blocks[from_block] != 0u;
+        }
+    }
+    if !emits {
         return;
     }
     var slot = block_starts[2u * block + 1u];
     for (var leaf = 0u; leaf < 8u; leaf += 1u) {
         var sum = EmissionSum(vec2<u32>(0u), vec2<u32>(0u), vec2<u32>(0u), vec2<u32>(0u));
         for (var source = 0u; source < source_count(); source += 1u) {
-            sum = add_range(sum, source_range(block_cell, source), leaf, block_cell);
+            sum = add_range(sum, ranges[source], leaf, block_cell);
         }
         if any(sum.weight != vec2<u32>(0u)) {
             let full = wide_to_float(sum.weight) * f32(EMISSION_MAX);

@@ -41,7 +41,7 @@ fn add_leaf(leaf: u32, sum: LeafSum) {
 // One leaf's share of up to MAX_FRAGMENTS voxels of a range, GROUP_THREADS apart.
 fn sum_leaf(first: u32, end: u32, leaf: u32, block_cell: vec3<i32>) -> LeafSum {
     var sum = empty_leaf();
-    let offset = (vec3<u32>(leaf) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
+    let offset = corner_offset(leaf);
     for (var i = first; i < end; i += GROUP_THREADS) {
         let w = block_weights(sorted_voxels[i].xy, block_cell);
         let weight = w.x[offset.x] * w.y[offset.y] * w.z[offset.z];

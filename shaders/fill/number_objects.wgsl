@@ -43,7 +43,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         return;
     }
     for (var corner = 0u; corner < 8u; corner += 1u) {
-        let offset = (vec3<u32>(corner) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
+        let offset = corner_offset(corner);
         claim(base_cell(q) + vec3<i32>(offset), split_weight(fraction(q), offset), item.object);
     }
 }

@@ -4,6 +4,8 @@
 // behind the other, what the first lets through meets the second; the four such pairs average.
 #import shared/threads.wgsl
 #import shared/octree.wgsl
+#import shared/leaf_mask.wgsl
+#import shared/wide.wgsl
 
 struct AverageLightParams {
     // The level that is written.
@@ -34,7 +36,7 @@ struct Children {
 fn leaf_children(child: u32) -> Children {
     let block = (child - octree.dense_node_count) / 8u;
     let key = block_keys[block];
-    let mask = (leaf_bits[key >> 2u] >> (8u * (key & 3u))) & 0xffu;
+    let mask = leaf_mask(key);
     var slot = octree.inner_node_count + block_starts[2u * (block - octree.levels[octree.depth - 1u].first_block) + 1u];
     var children = Children();
     for (var i = 0u; i < 8u; i += 1u) {
@@ -88,7 +90,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
             children = node_children(child);
         }
     }
-    let occupied = f32(nodes[node].y) * 4294967296.0 + f32(nodes[node].x);
+    let occupied = wide_to_float(nodes[node].xy);
     let full = f32(FULL_WEIGHT) * exp2(3.0 * f32(octree.depth - params.level));
     light[node] = vec4<f32>(children.light / 8.0, occupied / full);
     if DIRECTIONAL {

@@ -3,6 +3,7 @@
 // the mean over cosine-weighted cones. Leaves whose normals cancel look both ways, each with half weight.
 #import shared/threads.wgsl
 #import shared/corners_ranked.wgsl
+#import shared/leaf_mask.wgsl
 #import shared/cone.wgsl
 #import shared/cone_set.wgsl
 #import shared/packing.wgsl
@@ -60,7 +61,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         return;
     }
     let key = block_keys[octree.levels[octree.depth - 1u].first_block + block];
-    var children = (leaf_bits[key >> 2u] >> (8u * (key & 3u))) & 0xffu;
+    var children = leaf_mask(key);
     var slot = block_starts[2u * block + 1u];
     while children != 0u {
         let arriving = leaf_irradiance(8u * key + firstTrailingBit(children), slot);

@@ -3,7 +3,9 @@
 // octree's masks. A thread a leaf block.
 #import shared/threads.wgsl
 #import shared/occupied_nodes.wgsl
+#import shared/leaf_mask.wgsl
 #import shared/leaf_slot.wgsl
+#import shared/transmittance.wgsl
 #import shared/packing.wgsl
 #import shared/ray_walk.wgsl
 #import shared/empty_space.wgsl
@@ -52,7 +54,7 @@ fn leaf_occupancy(key: u32) -> f32 {
 
 // Share of the light that comes through the leaves between `from` and `end` cells along a direction:
 // 1 − α a cell of length.
-fn transmittance(origin: vec3<f32>, direction: vec3<f32>, end: f32) -> f32 {
+fn light_through(origin: vec3<f32>, direction: vec3<f32>, end: f32) -> f32 {
     let cells = grid_cells();
     let ray = ray_of(origin, direction);
     var walk = enter_lattice(ray, cells);
@@ -67,8 +69,7 @@ fn transmittance(origin: vec3<f32>, direction: vec3<f32>, end: f32) -> f32 {
         let exit = leave_box(ray, low, 1i << shift);
         let length = min(exit.t, end) - walk.t;
         if level > octree.depth && length > 0.0 {
-            let rest = 1.0 - leaf_occupancy(key);
-            through *= select(0.0, pow(rest, length), rest > 0.0);
+            through *= transmittance(leaf_occupancy(key), length);
             if through < LEAST_LIGHT {
                 return 0.0;
             }
@@ -125,7 +126,7 @@ fn visibility(centre: vec3<f32>, unit: vec3<f32>, r: f32, to: Arrival) -> f32 {
     }
     let end = select(distance(light.position, start), NEVER, light.kind == LIGHT_DIRECTIONAL);
     let direction = select(normalize(light.position - start + 1e-6 * unit), to.direction, light.kind == LIGHT_DIRECTIONAL);
-    return transmittance(start, direction, end);
+    return light_through(start, direction, end);
 }
 
 fn leaf_irradiance(centre: vec3<f32>, packed_normal: u32) -> vec3<f32> {
@@ -149,11 +150,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     }
     let key = block_keys[octree.levels[octree.depth - 1u].first_block + block];
     let low = 2u * morton_cell(key);
-    var mask = (leaf_bits[key >> 2u] >> (8u * (key & 3u))) & 0xffu;
+    var mask = leaf_mask(key);
     var slot = block_starts[2u * block + 1u];
     while mask != 0u {
         let corner = firstTrailingBit(mask);
-        let centre = vec3<f32>(low + ((vec3<u32>(corner) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u))) + 0.5;
+        let centre = vec3<f32>(low + corner_offset(corner)) + 0.5;
         let arrived = leaf_irradiance(centre, leaves[3u * slot + 2u]);
         irradiance[3u * slot] += arrived.x;
         irradiance[3u * slot + 1u] += arrived.y;

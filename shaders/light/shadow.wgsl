@@ -25,17 +25,6 @@ fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
     return Vertex(frame.clip_from_grid * p, dot(frame.distance, p), v.tex_coord, unpack4x8unorm(v.color).a);
 }
 
-@vertex
-fn rigid(@builtin(vertex_index) number: u32) -> Vertex {
-    return placed(vertices[vertex_of(number)], matrices[draw.first_matrix]);
-}
-
-@vertex
-fn skinned(@builtin(vertex_index) number: u32) -> Vertex {
-    let vertex = vertex_of(number);
-    return placed(vertices[vertex], skinned_matrix(vertex));
-}
-
 @fragment
 fn fragment(v: Vertex) -> @location(0) vec4<f32> {
     let alpha = draw.base_color.a * v.alpha * textureSample(base_color, base_color_sampler, v.tex_coord).a;

@@ -12,20 +12,25 @@ fn source_count() -> u32 {
 
 // Leaf block number `source` of those whose voxels reach the block at `block_cell` (in blocks).
 fn source_block(block_cell: vec3<i32>, source: u32) -> u32 {
-    let cell = block_cell - vec3<i32>((vec3<u32>(source) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u));
+    let cell = block_cell - vec3<i32>(corner_offset(source));
     if any(cell < vec3<i32>(0)) {
         return NO_BLOCK;
     }
     return leaf_block_rank(morton_key(vec3<u32>(cell)));
 }
 
-// Range of that source's voxels among the sorted ones.
+// Range of a block's voxels among the sorted ones.
+fn block_range(block: u32) -> vec2<u32> {
+    return vec2<u32>(block_starts[2u * block], block_starts[2u * block + 2u]);
+}
+
+// The same of that source.
 fn source_range(block_cell: vec3<i32>, source: u32) -> vec2<u32> {
     let block = source_block(block_cell, source);
     if block == NO_BLOCK {
         return vec2<u32>(0u);
     }
-    return vec2<u32>(block_starts[2u * block], block_starts[2u * block + 2u]);
+    return block_range(block);
 }
 
 // Weights along one axis in the block's two layers, for the base cell's distance from the first.

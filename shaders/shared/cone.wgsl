@@ -5,6 +5,7 @@
 #import constants
 #import shared/ray_walk.wgsl
 #import shared/sample.wgsl
+#import shared/transmittance.wgsl
 
 struct ConeParams {
     // Radiance behind all that is in the grid, nits.
@@ -29,11 +30,6 @@ struct ConeLight {
 
 fn cone_diameter(cone: ConeParams, t: f32) -> f32 {
     return max(1.0, t * cone.widening);
-}
-
-// Share that passes `length` cells of opacity `alpha` a cell.
-fn transmittance(alpha: f32, length: f32) -> f32 {
-    return select(pow(max(1.0 - alpha, 0.0), length), 0.0, alpha >= 1.0);
 }
 
 // When a ray enters and leaves the grid.

@@ -5,6 +5,7 @@
 // Corner j of base node b is b + (j & 1, j >> 1 & 1, j >> 2). A point is rounded down to the lattice of
 // node centres, so a base may be −1: such corners have weight, but no node.
 #import shared/octree.wgsl
+#import shared/leaf_mask.wgsl
 
 // Entry of `light` for each corner, NO_BLOCK without one.
 struct Corners {
@@ -13,10 +14,6 @@ struct Corners {
 
 fn no_corners() -> Corners {
     return Corners(array<u32, 8>(NO_BLOCK, NO_BLOCK, NO_BLOCK, NO_BLOCK, NO_BLOCK, NO_BLOCK, NO_BLOCK, NO_BLOCK));
-}
-
-fn corner_offset(j: u32) -> vec3<u32> {
-    return (vec3<u32>(j) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
 }
 
 // Hops from the first node in the grid to the other corners. Bits are by axis.
@@ -62,11 +59,6 @@ struct BlockLight {
 }
 
 const NO_LIGHT: BlockLight = BlockLight(0u, 0u);
-
-// Which leaves of the block of leaf `key` are occupied.
-fn leaf_children(key: u32) -> u32 {
-    return (leaf_bits[key >> 5u] >> (key & 24u)) & 0xffu;
-}
 
 // Of a block by its rank, for nodes of `level`; inner nodes all have entries.
 fn block_light(level: u32, block: u32, children: u32) -> BlockLight {

@@ -47,7 +47,7 @@ fn linked_block(level: u32, key: u32, node: u32) -> BlockLight {
     }
     var children = 0u;
     if level == octree.depth {
-        children = leaf_children(key);
+        children = leaf_mask(key >> 3u);
         if children == 0u {
             return NO_LIGHT;
         }

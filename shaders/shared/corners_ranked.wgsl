@@ -7,7 +7,7 @@
 fn ranked_block(level: u32, key: u32) -> BlockLight {
     var children = 0u;
     if level == octree.depth {
-        children = leaf_children(key);
+        children = leaf_mask(key >> 3u);
         // Most of space ends here.
         if children == 0u {
             return NO_LIGHT;

@@ -3,6 +3,7 @@
 // occupancy of an occupied cell of the shown level. It declares `picture` and `depth`.
 #import shared/octree.wgsl
 #import shared/empty_space.wgsl
+#import shared/store_pixel.wgsl
 #import shared/view.wgsl
 
 // All of a ray, at the shown level.
@@ -44,6 +45,5 @@ fn show(thread: u32) {
     }
     let light = march(pixel_ray(pixel));
     let color = light.color + light.through * view.background;
-    textureStore(picture, pixel, vec4<f32>(gamma_from_linear(color), 1.0));
-    textureStore(depth, pixel, vec4<f32>(light.depth_cells, 0.0, 0.0, 1.0));
+    store_pixel(pixel, color, light.depth_cells);
 }

@@ -33,3 +33,8 @@ fn forward_key(key: u32, axis: u32) -> u32 {
     let mask = MORTON_X << axis;
     return (((key | ~mask) + (1u << axis)) & mask) | (key & ~mask);
 }
+
+// Of child, corner or source `j` of eight: bit 0 is x, bit 1 y, bit 2 z.
+fn corner_offset(j: u32) -> vec3<u32> {
+    return (vec3<u32>(j) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
+}

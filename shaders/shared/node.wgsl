@@ -5,6 +5,7 @@
 //   word 2     albedo, 10 | 10 | 10, units of 1/1020, mean by occupancy
 //   word 3     normal, 10 | 10 | 10 biased, mean by occupancy: short where normals disagree
 #import shared/packing.wgsl
+#import shared/wide.wgsl
 
 // Occupancy-weighted sums over children. Weights are exact integers until they become f32 here.
 struct NodeSum {
@@ -23,7 +24,7 @@ fn add_child(sum: NodeSum, low: u32, high: u32, albedo: vec3<u32>, normal: vec3<
     var next = sum;
     next.low = sum.low + low;
     next.high = sum.high + high + select(0u, 1u, next.low < low);
-    let weight = f32(high) * 4294967296.0 + f32(low);
+    let weight = wide_to_float(vec2<u32>(low, high));
     next.weight = sum.weight + weight;
     next.albedo = sum.albedo + weight * vec3<f32>(albedo);
     next.normal = sum.normal + weight * vec3<f32>(normal);

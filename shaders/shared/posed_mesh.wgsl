@@ -1,5 +1,6 @@
 // Posed triangles: vertices by number, the matrices that move them, and what of a surface is there. A
-// shader declares `draw`, `indices`, `vertices`, `vertex_joints` and `matrices`.
+// shader declares `draw`, `indices`, `vertices`, `vertex_joints` and `matrices`, and says what becomes of
+// a vertex: `Vertex`, and `placed(v, m)`. Entry points `rigid` and `skinned` differ in what moves it.
 #import constants
 
 struct MeshVertex {
@@ -72,6 +73,17 @@ fn skinned_matrix(vertex: u32) -> MeshMatrix {
         }
     }
     return MeshMatrix(array(sum[0] / total, sum[1] / total, sum[2] / total));
+}
+
+@vertex
+fn rigid(@builtin(vertex_index) number: u32) -> Vertex {
+    return placed(vertices[vertex_of(number)], matrices[draw.first_matrix]);
+}
+
+@vertex
+fn skinned(@builtin(vertex_index) number: u32) -> Vertex {
+    let vertex = vertex_of(number);
+    return placed(vertices[vertex], skinned_matrix(vertex));
 }
 
 // 0 … 1 in an order that spreads: a share of pixels stands for a share of coverage.

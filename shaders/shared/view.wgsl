@@ -1,6 +1,7 @@
 // What the views share: the ray of a pixel, light and colour, lines at voxel borders.
 #import constants
 #import shared/ray_walk.wgsl
+#import shared/transmittance.wgsl
 
 struct ViewParams {
     // Ray of the picture point (x, y), −1 … 1 to the right and up, in leaf cells: each vector is
@@ -119,5 +120,5 @@ fn voxel_alpha(a: f32, length_cells: f32) -> f32 {
     if (view.flags & VIEW_LENGTH_RULE) == 0u || a >= 1.0 {
         return min(a, 1.0);
     }
-    return 1.0 - pow(1.0 - a, length_cells);
+    return 1.0 - transmittance(a, length_cells);
 }

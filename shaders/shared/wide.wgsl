@@ -35,3 +35,8 @@ fn wide_rounded_quotient(s: vec2<u32>, w: vec2<u32>) -> u32 {
     }
     return quotient;
 }
+
+// Rounded: f32 holds 24 bits of it.
+fn wide_to_float(a: vec2<u32>) -> f32 {
+    return f32(a.y) * 4294967296.0 + f32(a.x);
+}

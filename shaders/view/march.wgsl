@@ -6,6 +6,8 @@
 #import shared/leaf_slot.wgsl
 #import shared/march.wgsl
 #import shared/packing.wgsl
+#import shared/palette.wgsl
+#import shared/wide.wgsl
 
 @group(0) @binding(0) var<uniform> octree: OctreeParams;
 @group(0) @binding(1) var<uniform> view: ViewParams;
@@ -29,10 +31,6 @@ struct Voxel {
     occupancy: f32,
     color: vec3<f32>,
     normal: vec3<f32>,
-}
-
-fn palette_value(value: f32) -> vec3<f32> {
-    return palette.colors[u32(clamp(value, 0.0, 1.0) * 255.0 + 0.5)].rgb;
 }
 
 // The colour a voxel is painted with; shading comes later.
@@ -60,7 +58,7 @@ fn leaf_voxel(key: u32) -> Voxel {
 
 fn node_voxel(level: u32, key: u32) -> Voxel {
     let node = nodes[node_index(level, key)];
-    let sum = f32(node.y) * 4294967296.0 + f32(node.x);
+    let sum = wide_to_float(node.xy);
     let occupancy = sum / (f32(FULL_WEIGHT) * exp2(3.0 * f32(octree.depth - level)));
     let albedo = vec3<f32>(unpack_biased(node.z)) / (255.0 * f32(ALBEDO_NODE_SCALE));
     let normal = unpack_normal(node.w);

@@ -43,17 +43,6 @@ fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
     return Vertex(mesh.clip_from_camera * vec4<f32>(position, 1.0), position, unit, v.tex_coord, unpack4x8unorm(v.color));
 }
 
-@vertex
-fn rigid(@builtin(vertex_index) number: u32) -> Vertex {
-    return placed(vertices[vertex_of(number)], matrices[draw.first_matrix]);
-}
-
-@vertex
-fn skinned(@builtin(vertex_index) number: u32) -> Vertex {
-    let vertex = vertex_of(number);
-    return placed(vertices[vertex], skinned_matrix(vertex));
-}
-
 @fragment
 fn fragment(v: Vertex) -> Pixel {
     let surface = draw.base_color * v.color * textureSample(base_color, base_color_sampler, v.tex_coord);

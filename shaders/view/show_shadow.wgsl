@@ -1,6 +1,8 @@
 // Shows a shadow map: distances from the light in the colours of a scale, its layers side by side (three
 // a row), as large as the picture allows. Texels that nothing hides are background.
 #import shared/threads.wgsl
+#import shared/palette.wgsl
+#import shared/store_pixel.wgsl
 #import shared/view.wgsl
 
 struct ShowShadowParams {
@@ -49,8 +51,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     var color = view.background;
     if distance < NEVER {
         let share = (distance - params.least) / max(params.most - params.least, 1e-6);
-        color = palette.colors[u32(clamp(share, 0.0, 1.0) * 255.0 + 0.5)].rgb;
+        color = palette_value(share);
     }
-    textureStore(picture, pixel, vec4<f32>(gamma_from_linear(color), 1.0));
-    textureStore(depth, pixel, vec4<f32>(NEVER, 0.0, 0.0, 1.0));
+    store_pixel(pixel, color, NEVER);
 }

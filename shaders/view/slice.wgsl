@@ -3,6 +3,8 @@
 // background. In: the lit octree, a view, a plane. Out: the picture, and the distance to the plane.
 #import shared/threads.wgsl
 #import shared/look_up.wgsl
+#import shared/palette.wgsl
+#import shared/store_pixel.wgsl
 #import shared/view.wgsl
 
 struct SliceParams {
@@ -57,12 +59,12 @@ fn meets_plane(ray: PixelRay) -> f32 {
     return t;
 }
 
-// Where a value lies on the scale, 0 … 1.
+// Where a value lies on the scale: 0 … 1, or beyond its ends.
 fn share_of(value: f32) -> f32 {
     if (params.flags & SLICE_LOGARITHMIC) == 0u {
-        return clamp((value - params.least) / (params.most - params.least), 0.0, 1.0);
+        return (value - params.least) / (params.most - params.least);
     }
-    return clamp(log2(max(value, params.least) / params.least) / log2(params.most / params.least), 0.0, 1.0);
+    return log2(max(value, params.least) / params.least) / log2(params.most / params.least);
 }
 
 fn shown(ray: PixelRay) -> Shown {
@@ -81,7 +83,7 @@ fn shown(ray: PixelRay) -> Shown {
         }
         value = dot(seen.xyz, vec3<f32>(LUMINANCE_RED, LUMINANCE_GREEN, LUMINANCE_BLUE)) / seen.w;
     }
-    let color = palette.colors[u32(share_of(value) * 255.0 + 0.5)].rgb;
+    let color = palette_value(share_of(value));
     return Shown(color, ray.start_cells + t);
 }
 
@@ -96,6 +98,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         return;
     }
     let it = shown(pixel_ray(pixel));
-    textureStore(picture, pixel, vec4<f32>(gamma_from_linear(it.color), 1.0));
-    textureStore(depth, pixel, vec4<f32>(it.depth_cells, 0.0, 0.0, 1.0));
+    store_pixel(pixel, it.color, it.depth_cells);
 }
