@@ -1,6 +1,7 @@
 //! Everything a person can set. Window and command line fill the same struct, a screenshot carries
 //! it, and the engine compares it with what was built to decide what a frame must do.
 
+mod cone_tracing;
 mod light_edit;
 mod light_names;
 pub mod lighting;
@@ -10,9 +11,12 @@ mod visibility;
 
 use serde::{Deserialize, Serialize};
 
+pub use cone_tracing::ConeTracing;
 pub use light_names::{LightChange, LightError};
 pub use lighting::Lighting;
-pub use look::{AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, View};
+pub use look::{
+    AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, SurfaceView, ToneCurve, View,
+};
 pub use node_names::NodeNames;
 pub use visibility::{Hidden, Visibility, VisibilityError};
 
@@ -26,6 +30,7 @@ pub struct Settings {
     pub look: Look,
     pub visibility: Visibility,
     pub lighting: Lighting,
+    pub cone_tracing: ConeTracing,
 }
 
 impl Settings {
@@ -36,6 +41,7 @@ impl Settings {
         self.discretization.check()?;
         self.motion.check()?;
         self.lighting.check()?;
+        self.cone_tracing.check()?;
         self.look.check(self.discretization.depth())
     }
 }

@@ -5,4 +5,5 @@ pub mod light;
 pub mod octree;
 pub mod packing;
 pub mod pages;
+pub mod surface_image;
 pub mod voxel_cache;

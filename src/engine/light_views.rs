@@ -38,7 +38,7 @@ impl Engine {
                 let span = self.prepared.as_ref()?.grid.span;
                 Some(self.shadow_range(wanted)?.map(|cells| cells * span))
             }
-            View::Voxels | View::Mesh | View::Ghost => None,
+            View::Voxels | View::Mesh | View::Ghost | View::Surfaces => None,
         }
     }
 

@@ -24,6 +24,7 @@ mod sample;
 mod scene_on_gpu;
 mod shadows;
 mod steps;
+mod surfaces;
 mod wanted;
 
 use std::sync::Arc;

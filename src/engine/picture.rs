@@ -74,6 +74,7 @@ impl Engine {
             View::Mesh => self.record_mesh(&mut frame, wanted, &picture)?,
             View::Slice => self.record_slice(&mut frame, wanted, (&rays, &picture))?,
             View::ShadowMap => self.record_shadow_map(&mut frame, wanted, (&rays, &picture))?,
+            View::Surfaces => self.record_surfaces(&mut frame, wanted, (&rays, &picture))?,
         }
         Ok(frame)
     }

@@ -40,7 +40,7 @@ impl Wanted {
     /// Nothing of the scene is in the picture: all of it is hidden, or outside the grid.
     pub fn shows_nothing(&self) -> bool {
         match self.settings.look.view {
-            View::Mesh => self.facts.triangles == 0,
+            View::Mesh | View::Surfaces => self.facts.triangles == 0,
             View::ShadowMap => self.facts.triangles == 0 || self.facts.lights == 0,
             View::Voxels | View::Ghost | View::Slice => self.facts.voxels() == 0,
         }

@@ -34,7 +34,7 @@ pub(super) fn light(
     let looked_at = match settings.look.view {
         View::Voxels => settings.look.color == ColorBy::Irradiance,
         View::Slice => settings.look.slice.value == SliceValue::Irradiance,
-        View::Mesh | View::Ghost | View::ShadowMap => false,
+        View::Mesh | View::Ghost | View::ShadowMap | View::Surfaces => false,
     };
     let skip = store.or((!looked_at).then_some("irradiance is not looked at"));
     plan.push(

@@ -24,7 +24,9 @@ pub struct Look {
     pub accuracy: bool,
     /// Light is multiplied by 2 to this before it is shown; `None`: what the scene's mean radiance asks for.
     pub exposure_stops: Option<f64>,
+    pub tone_curve: ToneCurve,
     pub slice: Slice,
+    pub surface: SurfaceView,
     /// Which light's shadow map the shadow map view shows, from 0.
     pub shadow_map: usize,
     /// The octree keeps the neighbour pointers that the window draws and follows.
@@ -43,7 +45,9 @@ impl Default for Look {
             camera: None,
             accuracy: false,
             exposure_stops: None,
+            tone_curve: ToneCurve::default(),
             slice: Slice::default(),
+            surface: SurfaceView::default(),
             shadow_map: 0,
             pointers: false,
         }
@@ -75,6 +79,7 @@ impl Look {
         match self.view {
             View::Voxels => self.color.is_light(),
             View::Slice => self.slice.value != SliceValue::Occupancy,
+            View::Surfaces => self.surface.is_light(),
             View::ShadowMap => true,
             View::Mesh | View::Ghost => false,
         }
@@ -191,6 +196,51 @@ pub enum View {
     Slice,
     /// What a light sees: distances from it.
     ShadowMap,
+    /// The posed triangles in direct light and in what cones bring (section 4.5), or a part of that.
+    Surfaces,
+}
+
+/// What of the lit surfaces is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SurfaceView {
+    /// All light that reaches the eye.
+    #[default]
+    Final,
+    /// What lights send without a detour, and what surfaces emit.
+    Direct,
+    /// What diffuse cones bring, times albedo.
+    Diffuse,
+    /// What is reflected.
+    Specular,
+    /// Share of the hemisphere without anything near.
+    Ao,
+    /// What arrives by diffuse cones, lux.
+    Irradiance,
+    Albedo,
+    Normal,
+    Depth,
+    Roughness,
+}
+
+impl SurfaceView {
+    /// Shown with an exposure.
+    pub fn is_light(self) -> bool {
+        matches!(self, Self::Final | Self::Direct | Self::Diffuse | Self::Specular | Self::Irradiance)
+    }
+}
+
+/// How exposed light becomes the 0 to 1 of a screen, channel by channel, before gamma encoding.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ToneCurve {
+    /// As it is, cut at 1.
+    Linear,
+    /// x / (1 + x) (Reinhard 2002).
+    Reinhard,
+    /// Narkowicz's fit of the ACES film curve.
+    #[default]
+    Aces,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]

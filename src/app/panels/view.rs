@@ -29,6 +29,7 @@ pub fn ui(ui: &mut Ui, panel: ViewPanel<'_>) -> Vec<Command> {
         View::Slice => slice::ui(ui, &mut look.slice),
         View::ShadowMap => shadow_map_ui(ui, &mut look, panel.lights),
         View::Voxels | View::Mesh | View::Ghost => surface_ui(ui, &mut look, panel.depth),
+        View::Surfaces => {}
     }
     let is_exposed = look.view == View::Voxels && look.color.is_light();
     if is_exposed {
