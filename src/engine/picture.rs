@@ -7,8 +7,6 @@ use super::{Engine, EngineError, Wanted, missing};
 use crate::color::srgb_byte;
 use crate::data::octree::{OctreeParams, Slot};
 use crate::gpu::{GpuError, GpuTexture, Recorder};
-use crate::scene::OrbitCamera;
-use crate::scene::camera::camera_from_scene_camera;
 use crate::settings::{Hidden, View};
 use crate::stages::build::COUNTERS;
 use crate::stages::build::reduce::{self, Masks};
@@ -52,7 +50,7 @@ impl Engine {
         let mut frame = Recorder::default();
         let picture = self.ensure_picture(wanted.size_px)?;
         let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
-        let rays = PixelRays::new(&self.camera(wanted)?, &grid, wanted.size_px);
+        let rays = PixelRays::new(&wanted.camera, &grid, wanted.size_px);
         let look = &wanted.settings.look;
         match look.view {
             View::Voxels if self.plan.shows_light() => {
@@ -74,21 +72,19 @@ impl Engine {
             View::Mesh => self.record_mesh(&mut frame, wanted, &picture)?,
             View::Slice => self.record_slice(&mut frame, wanted, (&rays, &picture))?,
             View::ShadowMap => self.record_shadow_map(&mut frame, wanted, (&rays, &picture))?,
-            View::Surfaces => self.record_surfaces(&mut frame, wanted, (&rays, &picture))?,
+            View::Surfaces => self.record_surfaces(&mut frame, wanted, &picture)?,
         }
         Ok(frame)
     }
 
     fn record_mesh(&mut self, frame: &mut Recorder, wanted: &Wanted, picture: &Picture) -> Result<(), EngineError> {
         let prepared = self.prepared.clone().ok_or(EngineError::NoScene)?;
-        let camera = self.camera(wanted)?;
-        let pose = prepared.pose(&wanted.settings.motion)?;
         let depth = self.mesh_depth(wanted.size_px)?;
         let mesh = self.mesh.as_ref().ok_or_else(|| missing("mesh vertices"))?;
-        let camera_from_world = mesh::camera_from_world(&camera, &prepared.grid);
-        let of_pose = (&pose, &wanted.hidden);
+        let camera_from_world = mesh::camera_from_world(&wanted.camera, &prepared.grid);
+        let of_pose = (&*wanted.placed.pose, &wanted.placed.hidden);
         let posed = PosedMesh::new(&self.gpu, mesh, &mut self.mesh_matrices, of_pose, &camera_from_world)?;
-        let seen = MeshView { camera: &camera, grid: &prepared.grid, look: &wanted.settings.look };
+        let seen = MeshView { camera: &wanted.camera, grid: &prepared.grid, look: &wanted.settings.look };
         mesh::record(&self.gpu, frame, &posed, seen, MeshTarget { picture, depth: &depth });
         Ok(())
     }
@@ -129,20 +125,6 @@ impl Engine {
             return Ok(picture.clone());
         }
         Ok(self.picture.insert(Picture::new(&self.gpu, size_px)?).clone())
-    }
-
-    /// The camera that is set, else the file's first, else one that frames everything.
-    pub(super) fn camera(&self, wanted: &Wanted) -> Result<OrbitCamera, EngineError> {
-        if let Some(camera) = wanted.settings.look.camera {
-            return Ok(camera);
-        }
-        let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
-        let pose = prepared.pose(&wanted.settings.motion)?;
-        Ok(camera_from_scene_camera(&prepared.scene, 0, &pose).unwrap_or_else(|| {
-            let mut camera = OrbitCamera::default();
-            camera.frame(prepared.bounds, f64::from(wanted.size_px[0]) / f64::from(wanted.size_px[1]));
-            camera
-        }))
     }
 
     /// The picture, gamma-encoded sRGB; `None` before the first, and where nothing is to be seen.

@@ -10,7 +10,7 @@ use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
 use crate::stages::fill::number_objects::OBJECT_MASK;
 use crate::stages::light::gather;
-use crate::stages::{light, mesh, sample, view};
+use crate::stages::{light, mesh, sample, surface, view};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
@@ -24,6 +24,8 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("COLOR_OCCUPANCY", view::COLOR_OCCUPANCY),
     ("COUNTER_CLIPPED", COUNTER_CLIPPED),
     ("COUNTER_OCCUPIED", COUNTER_OCCUPIED),
+    ("CURVE_ACES", view::show_surfaces::CURVE_ACES),
+    ("CURVE_REINHARD", view::show_surfaces::CURVE_REINHARD),
     ("EMISSION_MAX", EMISSION_MAX),
     ("FILTER_QUADRILINEAR", sample::FILTER_QUADRILINEAR),
     ("FILTER_TRILINEAR", sample::FILTER_TRILINEAR),
@@ -39,8 +41,22 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("SCAN_CHUNK", SCAN_CHUNK),
     ("SHADOWS_MAP", light::SHADOWS_MAP),
     ("SHADOWS_OFF", light::SHADOWS_OFF),
+    ("SHOWS_DEPTH", view::show_surfaces::SHOWS_DEPTH),
+    ("SHOWS_LIGHT", view::show_surfaces::SHOWS_LIGHT),
+    ("SHOWS_NORMAL", view::show_surfaces::SHOWS_NORMAL),
     ("SLICE_LOGARITHMIC", view::slice::SLICE_LOGARITHMIC),
     ("SLICE_OCCUPANCY", view::slice::SLICE_OCCUPANCY),
+    ("SUM_THREADS", surface::sum_luminance::SUM_THREADS),
+    ("TERM_ALBEDO", surface::compose::TERM_ALBEDO),
+    ("TERM_AO", surface::compose::TERM_AO),
+    ("TERM_DEPTH", surface::compose::TERM_DEPTH),
+    ("TERM_DIFFUSE", surface::compose::TERM_DIFFUSE),
+    ("TERM_DIRECT", surface::compose::TERM_DIRECT),
+    ("TERM_FINAL", surface::compose::TERM_FINAL),
+    ("TERM_IRRADIANCE", surface::compose::TERM_IRRADIANCE),
+    ("TERM_NORMAL", surface::compose::TERM_NORMAL),
+    ("TERM_ROUGHNESS", surface::compose::TERM_ROUGHNESS),
+    ("TERM_SPECULAR", surface::compose::TERM_SPECULAR),
     ("TILE_CELLS", TILE_CELLS as u32),
     ("VIEW_EDGES", view::VIEW_EDGES),
     ("VIEW_LENGTH_RULE", view::VIEW_LENGTH_RULE),
@@ -50,6 +66,11 @@ pub const CONSTANTS: &[(&str, u32)] = &[
 
 /// The same for numbers that are no integers.
 pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
+    ("ACES_A", view::show_surfaces::ACES[0]),
+    ("ACES_B", view::show_surfaces::ACES[1]),
+    ("ACES_C", view::show_surfaces::ACES[2]),
+    ("ACES_D", view::show_surfaces::ACES[3]),
+    ("ACES_E", view::show_surfaces::ACES[4]),
     ("AMBIENT", view::AMBIENT),
     ("EDGE_FROM_PX", view::EDGE_FROM_PX),
     ("EDGE_FULL_PX", view::EDGE_FULL_PX),

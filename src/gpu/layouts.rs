@@ -16,10 +16,13 @@ use crate::stages::light::inject::InjectParams;
 use crate::stages::light::shadow::{ShadowFrame, ShadowParams};
 use crate::stages::mesh::{DrawParams, MeshVertex, VertexJoints};
 use crate::stages::sample::sample_points::PointParams;
+use crate::stages::surface::compose::ComposeParams;
+use crate::stages::surface::sum_luminance::SumParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
 use crate::stages::view::march_light::ExposureParams;
 use crate::stages::view::mesh::MeshParams;
 use crate::stages::view::show_shadow::ShowShadowParams;
+use crate::stages::view::show_surfaces::ShowSurfacesParams;
 use crate::stages::view::slice::SliceParams;
 use crate::stages::view::{GhostColors, Palette, ViewParams};
 
@@ -105,6 +108,9 @@ pub const MIRRORS: &[Mirror] = &[
         reach_cells,
     ),
     mirror!(SliceParams, "view/slice.wgsl", "SliceParams", axis, height_cells, at, flags, least, most, pad,),
+    mirror!(ComposeParams, "surface/compose.wgsl", "ComposeParams", sky, glossy_roughness, span, pad, pad_end),
+    mirror!(SumParams, "surface/sum_luminance.wgsl", "SumParams", pixels),
+    mirror!(ShowSurfacesParams, "view/show_surfaces.wgsl", "ShowSurfacesParams", exposure, least, most, sky),
     mirror!(PointParams, "sample/sample_points.wgsl", "PointParams", direction, pad),
     mirror!(
         ViewParams,

@@ -33,6 +33,21 @@ pub enum Pass {
     Bounces,
     /// Irradiance of every node, for the view of it.
     AverageIrradiance,
+    /// What the camera sees: places and materials.
+    DrawSurfaces,
+    /// Direct light on it, a light at a time.
+    LightSurfaces,
+    TraceDiffuse,
+    /// From pixels that share cones to every pixel.
+    FilterDiffuse,
+    /// Where a specular cone is called for.
+    ListGlossyTiles,
+    TraceSpecular,
+    FilterSpecular,
+    /// What is shown of it, as linear light.
+    ComposeSurfaces,
+    MeasureExposure,
+    ShowSurfaces,
     MarchVoxels,
     MarchLight,
     SliceOctree,
@@ -48,7 +63,7 @@ pub enum Pass {
 
 impl Pass {
     /// Every pass, in frame order.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 41] = [
         Self::UploadCaches,
         Self::ObjectIo,
         Self::TransformRigid,
@@ -71,6 +86,16 @@ impl Pass {
         Self::AverageLight,
         Self::Bounces,
         Self::AverageIrradiance,
+        Self::DrawSurfaces,
+        Self::LightSurfaces,
+        Self::TraceDiffuse,
+        Self::FilterDiffuse,
+        Self::ListGlossyTiles,
+        Self::TraceSpecular,
+        Self::FilterSpecular,
+        Self::ComposeSurfaces,
+        Self::MeasureExposure,
+        Self::ShowSurfaces,
         Self::MarchVoxels,
         Self::MarchLight,
         Self::SliceOctree,
@@ -118,6 +143,15 @@ impl Pass {
                 "averaging/average",
             ],
             Self::CompareExact => &["compare/compare_sets"],
+            Self::DrawSurfaces => &["surface/draw"],
+            Self::LightSurfaces => &["surface/direct"],
+            Self::TraceDiffuse => &["cones/diffuse"],
+            Self::FilterDiffuse | Self::FilterSpecular => &["cones/filter"],
+            Self::ListGlossyTiles => &["cones/glossy_tiles"],
+            Self::TraceSpecular => &["cones/specular"],
+            Self::ComposeSurfaces => &["surface/compose"],
+            Self::MeasureExposure => &["surface/sum_luminance"],
+            Self::ShowSurfaces => &["view/show_surfaces"],
             Self::MarchVoxels => &["view/march"],
             Self::MarchLight => &["view/march_light"],
             Self::SliceOctree => &["view/slice"],
