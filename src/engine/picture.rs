@@ -12,7 +12,7 @@ use crate::scene::camera::camera_from_scene_camera;
 use crate::settings::{Hidden, View};
 use crate::stages::build::COUNTERS;
 use crate::stages::build::reduce::{self, Masks};
-use crate::stages::mesh::{MeshScene, PosedMesh};
+use crate::stages::mesh::{MeshScene, PosedMesh, Textures};
 use crate::stages::view::camera::PixelRays;
 use crate::stages::view::ghost::{self, LeafSet};
 use crate::stages::view::march::{self, MarchedOctree};
@@ -98,7 +98,7 @@ impl Engine {
         let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
         let objects = || prepared.objects.iter().zip(0..).map(|(object, number)| (number, object.object.clone()));
         let mesh = self.mesh.get_or_insert_with(|| MeshScene::new(Arc::clone(&prepared.scene), objects().collect()));
-        Ok(mesh.upload(&self.gpu, hidden, budget)?)
+        Ok(mesh.upload(&self.gpu, (hidden, Textures::BaseColor), budget)?)
     }
 
     fn mesh_depth(&mut self, size_px: [u32; 2]) -> Result<GpuTexture, GpuError> {

@@ -10,7 +10,7 @@ use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
 use crate::stages::fill::number_objects::OBJECT_MASK;
 use crate::stages::light::gather;
-use crate::stages::{light, mesh, sample, view};
+use crate::stages::{light, mesh, sample, surface, view};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
@@ -30,6 +30,7 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("FRACTION_BITS", FRACTION_BITS),
     ("FRACTION_ONE", 1 << FRACTION_BITS),
     ("FULL_WEIGHT", FULL_WEIGHT),
+    ("LEFT_HANDED", mesh::LEFT_HANDED),
     ("LIGHT_DIRECTIONAL", light::LIGHT_DIRECTIONAL),
     ("LIGHT_SPOT", light::LIGHT_SPOT),
     ("MAX_FRAGMENTS", MAX_FRAGMENTS),
@@ -51,19 +52,24 @@ pub const CONSTANTS: &[(&str, u32)] = &[
 /// The same for numbers that are no integers.
 pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
     ("AMBIENT", view::AMBIENT),
+    ("DIELECTRIC_REFLECTANCE", surface::DIELECTRIC_REFLECTANCE),
     ("EDGE_FROM_PX", view::EDGE_FROM_PX),
     ("EDGE_FULL_PX", view::EDGE_FULL_PX),
     ("EDGE_SHADE", view::EDGE_SHADE),
     ("GOLDEN_ANGLE", gather::GOLDEN_ANGLE),
     ("INVERSE_PI", std::f64::consts::FRAC_1_PI),
     ("LEAST_DISTANCE_CELLS", light::LEAST_DISTANCE_CELLS),
+    ("LEAST_EYE_COSINE", surface::LEAST_EYE_COSINE),
     ("LEAST_LIGHT", view::LEAST_LIGHT),
+    ("LEAST_ROUGHNESS", surface::LEAST_ROUGHNESS),
     ("LEAST_STEP", gather::LEAST_STEP),
     ("LEAST_THROUGH", sample::LEAST_THROUGH),
+    ("LIGHT_NEAR_CELLS", light::shadow::NEAR_CELLS),
     ("LUMINANCE_BLUE", LUMINANCE[2]),
     ("LUMINANCE_GREEN", LUMINANCE[1]),
     ("LUMINANCE_RED", LUMINANCE[0]),
     ("PI", std::f64::consts::PI),
+    ("SHADOW_OFFSET_CELLS", surface::SHADOW_OFFSET_CELLS),
     ("SHORT_NORMAL", view::SHORT_NORMAL),
     ("SPREAD_COSINE", light::SPREAD_COSINE),
 ];
