@@ -36,7 +36,11 @@ fn builds_octree(plan: &FramePlan) -> bool {
 #[test]
 fn another_view_draws_no_surface() {
     let plan = plan(&GLOSSY, &FIRST, &Settings::default());
-    for pass in [Pass::DrawSurfaces, Pass::LightSurfaces].into_iter().chain(CONES).chain(SHOWN) {
+    for pass in [Pass::DrawSurfaces, Pass::EmitSurfaces, Pass::LightSurfaces, Pass::LightByMarching]
+        .into_iter()
+        .chain(CONES)
+        .chain(SHOWN)
+    {
         assert_eq!(reason(&plan, pass), (State::Skip, "another view is shown"));
     }
 }
@@ -47,7 +51,7 @@ fn without_light_nothing_is_traced_and_no_octree_built() {
     assert_eq!(reason(&plan, Pass::TraceDiffuse), (State::Skip, "no light and no emission"));
     assert_eq!(reason(&plan, Pass::TraceSpecular), (State::Skip, "no light and no emission"));
     assert_eq!(reason(&plan, Pass::MarkLeaves), (State::Skip, "no cone and no shadow asks the octree"));
-    assert_eq!(running(&plan), [&[Pass::DrawSurfaces, Pass::LightSurfaces], &SHOWN[..]].concat());
+    assert_eq!(running(&plan), [&[Pass::DrawSurfaces, Pass::EmitSurfaces], &SHOWN[..]].concat());
 }
 
 #[test]
@@ -116,7 +120,7 @@ fn each_part_calls_for_what_it_shows() {
 fn a_moved_camera_draws_and_traces_again_and_lights_no_voxel() {
     let changed = Changes { view: true, surfaces: true, ..SAME };
     let expected = [
-        &[Pass::DrawSurfaces, Pass::LightSurfaces, Pass::TraceDiffuse, Pass::FilterDiffuse],
+        &[Pass::DrawSurfaces, Pass::EmitSurfaces, Pass::LightSurfaces, Pass::TraceDiffuse, Pass::FilterDiffuse],
         &[Pass::ListGlossyTiles, Pass::TraceSpecular][..],
         &SHOWN,
     ];
@@ -130,7 +134,7 @@ fn a_changed_light_draws_no_surface() {
     let plan = plan(&SUN, &changed, &showing(SurfaceView::Final));
     assert_eq!(reason(&plan, Pass::DrawSurfaces), (State::Reuse, "camera and objects unmoved"));
     let expected = [
-        &[Pass::Illuminate, Pass::InjectLight, Pass::AverageLight, Pass::LightSurfaces][..],
+        &[Pass::Illuminate, Pass::InjectLight, Pass::AverageLight, Pass::EmitSurfaces, Pass::LightSurfaces][..],
         &[Pass::TraceDiffuse, Pass::FilterDiffuse],
         &SHOWN,
     ];
@@ -157,7 +161,8 @@ fn marched_shadows_and_pointers_ask_the_octree() {
     assert!(!builds_octree(&plan(&SUN, &FIRST, &settings)));
     settings.lighting.shadows = Shadows::March;
     let marched = plan(&SUN, &FIRST, &settings);
-    assert!(builds_octree(&marched) && !marched.runs(Pass::DrawShadows) && !marched.runs(Pass::AverageLight));
+    assert!(builds_octree(&marched) && marched.runs(Pass::LightByMarching));
+    assert!(!marched.runs(Pass::DrawShadows) && !marched.runs(Pass::AverageLight));
     settings.look.surface = SurfaceView::Diffuse;
     settings.cone_tracing.lookup = Lookup::BlockPointers;
     assert!(plan(&SUN, &FIRST, &settings).runs(Pass::LinkNodes));
