@@ -13,6 +13,7 @@ mod animation;
 mod averaging;
 mod builtin;
 mod camera;
+mod compose;
 mod cones;
 mod device;
 mod disk_cache;
