@@ -45,11 +45,11 @@ fn mean_radiance(i: u32) -> vec3<f32> {
 }
 
 fn reflectance(s: Surface) -> vec3<f32> {
-    return specular_albedo(f0_of(s.albedo, s.metallic), s.roughness, max(dot(s.normal, -s.from_eye), 0.0));
+    return specular_albedo(f0_of(s), s.roughness, max(dot(s.normal, -s.from_eye), 0.0));
 }
 
 fn diffuse_term(s: Surface, i: u32) -> vec3<f32> {
-    return diffuse_color(s.albedo, s.metallic) * (1.0 - reflectance(s)) * mean_radiance(i);
+    return diffuse_color(s) * (1.0 - reflectance(s)) * mean_radiance(i);
 }
 
 // Rough surfaces reflect what their diffuse cones see.

@@ -26,7 +26,7 @@ pub struct LightOnGpu {
     pub maps: Vec<ShadowMap>,
     pub matrices: Slot,
     /// Hides nothing.
-    no_map: Option<ShadowMap>,
+    pub no_map: Option<ShadowMap>,
     /// Light times opacity, and opacity, of the whole scene.
     pub radiance_root: [f32; 4],
     pub irradiance_root: [f32; 4],
@@ -211,7 +211,7 @@ impl InjectedBuffers {
     }
 }
 
-fn no_map(gpu: &Gpu, kept: &mut Option<ShadowMap>) -> Result<ShadowMap, GpuError> {
+pub(super) fn no_map(gpu: &Gpu, kept: &mut Option<ShadowMap>) -> Result<ShadowMap, GpuError> {
     match kept {
         Some(map) => Ok(map.clone()),
         None => Ok(kept.insert(ShadowMap::new(gpu, ShadowParams::default())?).clone()),

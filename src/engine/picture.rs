@@ -7,10 +7,10 @@ use super::{Engine, EngineError, Wanted, missing};
 use crate::color::srgb_byte;
 use crate::data::octree::{OctreeParams, Slot};
 use crate::gpu::{GpuError, GpuTexture, Recorder};
-use crate::settings::{Hidden, View};
+use crate::settings::View;
 use crate::stages::build::COUNTERS;
 use crate::stages::build::reduce::{self, Masks};
-use crate::stages::mesh::{MeshScene, PosedMesh};
+use crate::stages::mesh::{MeshScene, PosedMesh, Textures};
 use crate::stages::view::camera::PixelRays;
 use crate::stages::view::ghost::{self, LeafSet};
 use crate::stages::view::march::{self, MarchedOctree};
@@ -89,12 +89,14 @@ impl Engine {
         Ok(())
     }
 
-    /// Uploads what the mesh view draws, for about `budget`; says whether all is there.
-    pub(super) fn upload_mesh(&mut self, hidden: &Hidden, budget: Duration) -> Result<bool, EngineError> {
+    /// Uploads what is drawn of the triangles, for about `budget`; says whether all is there.
+    pub(super) fn upload_mesh(&mut self, wanted: &Wanted, budget: Duration) -> Result<bool, EngineError> {
         let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
         let objects = || prepared.objects.iter().zip(0..).map(|(object, number)| (number, object.object.clone()));
         let mesh = self.mesh.get_or_insert_with(|| MeshScene::new(Arc::clone(&prepared.scene), objects().collect()));
-        Ok(mesh.upload(&self.gpu, hidden, budget)?)
+        let view = wanted.settings.look.view;
+        let textures = if view == View::Surfaces { Textures::All } else { Textures::BaseColor };
+        Ok(mesh.upload(&self.gpu, (&wanted.placed.hidden, textures), budget)?)
     }
 
     fn mesh_depth(&mut self, size_px: [u32; 2]) -> Result<GpuTexture, GpuError> {

@@ -84,7 +84,7 @@ impl Engine {
     pub(super) fn run_slice(&mut self, budget: Duration) -> Result<EngineState, EngineError> {
         let Some(mut running) = self.running.take() else { return Ok(EngineState::Idle) };
         let Some(&step) = running.steps.front() else { return Ok(EngineState::Idle) };
-        if step == Step::UploadMesh && !self.upload_mesh(&running.wanted.placed.hidden, budget)? {
+        if step == Step::UploadMesh && !self.upload_mesh(&running.wanted, budget)? {
             let state = running.state(0.0);
             self.running = Some(running);
             return Ok(state);

@@ -1,16 +1,24 @@
 //! The lit surfaces that the camera sees: surface image, direct light, and the picture of it all.
 
+use super::light::no_map;
 use super::light_views::MEAN_SHOWN_AS;
 use super::wanted::Placed;
 use super::{Engine, EngineError, Wanted, missing};
 use crate::data::octree::Slot;
 use crate::data::surface_image::SurfaceImage;
-use crate::gpu::{GpuTexture, Recorder};
+use crate::gpu::{Gpu, GpuError, GpuTexture, Recorder};
 use crate::scene::OrbitCamera;
 use crate::settings::ColorBy;
-use crate::stages::surface::compose::{self, ComposeParams, PIXEL_BYTES, Terms};
+use crate::settings::lighting::Shadows;
+use crate::stages::light::illuminate::LightParams;
+use crate::stages::mesh::PosedMesh;
+use crate::stages::surface::compose::{self, ComposeParams, Terms};
+use crate::stages::surface::draw::{self, Seen};
 use crate::stages::surface::sum_luminance::{self, SUM_BYTES};
+use crate::stages::surface::{Lit, RADIANCE_BYTES, direct, direct_march, emission};
 use crate::stages::view::camera::PixelRays;
+use crate::stages::view::mesh::camera_from_world;
+use crate::stages::view::picture::depth_buffer;
 use crate::stages::view::show_surfaces::{self, ShowSurfacesParams};
 use crate::stages::view::{Palette, Picture, ViewParams};
 
@@ -40,15 +48,38 @@ pub(super) struct SeenBy {
     camera: OrbitCamera,
     size_px: [u32; 2],
     placed: Placed,
+    emission: f64,
 }
 
 impl SeenBy {
     pub fn new(wanted: &Wanted) -> Self {
-        Self { camera: wanted.camera, size_px: wanted.size_px, placed: wanted.placed.clone() }
+        let Wanted { camera, size_px, placed, .. } = wanted;
+        Self { camera: *camera, size_px: *size_px, placed: placed.clone(), emission: emitted(wanted) }
     }
 
     pub fn is(&self, wanted: &Wanted) -> bool {
-        self.camera == wanted.camera && self.size_px == wanted.size_px && self.placed.is(&wanted.placed)
+        self.camera == wanted.camera
+            && self.size_px == wanted.size_px
+            && self.emission == emitted(wanted)
+            && self.placed.is(&wanted.placed)
+    }
+}
+
+/// Nothing depends on it where nothing emits.
+fn emitted(wanted: &Wanted) -> f64 {
+    if wanted.facts.emissive_voxels > 0 { wanted.settings.lighting.emission } else { 0.0 }
+}
+
+impl SurfacesOnGpu {
+    /// The image and its depth buffer, of this size.
+    fn sized(&mut self, gpu: &Gpu, size_px: [u32; 2]) -> Result<(SurfaceImage, GpuTexture), GpuError> {
+        match (&self.image, &self.depth) {
+            (Some(image), Some(depth)) if image.size_px() == size_px => Ok((image.clone(), depth.clone())),
+            _ => {
+                let image = self.image.insert(SurfaceImage::new(gpu, size_px)?).clone();
+                Ok((image, self.depth.insert(depth_buffer(gpu, size_px)?).clone()))
+            }
+        }
     }
 }
 
@@ -58,17 +89,46 @@ impl Engine {
         self.done.direct = None;
         self.done.diffuse = None;
         self.done.specular = None;
-        let _ = wanted;
-        Ok(Recorder::default())
+        let mut frame = Recorder::default();
+        let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
+        let (image, depth) = self.surfaces.sized(&self.gpu, wanted.size_px)?;
+        let mesh = self.mesh.as_ref().ok_or_else(|| missing("mesh vertices"))?;
+        let of_pose = (&*wanted.placed.pose, &wanted.placed.hidden);
+        let to_camera = camera_from_world(&wanted.camera, &grid);
+        let posed = PosedMesh::new(&self.gpu, mesh, &mut self.surfaces.matrices, of_pose, &to_camera)?;
+        let seen = Seen { camera: &wanted.camera, grid: &grid, emission: wanted.settings.lighting.emission };
+        draw::record(&self.gpu, &mut frame, &posed, seen, (&image, &depth));
+        Ok(frame)
     }
 
-    pub(super) fn record_direct(&mut self, _wanted: &Wanted) -> Result<Recorder, EngineError> {
-        Ok(Recorder::default())
+    /// What surfaces emit, and what every light adds.
+    pub(super) fn record_direct(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        let mut frame = Recorder::default();
+        let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
+        let lighting = &wanted.settings.lighting;
+        let bytes = Self::pixel_bytes(wanted.size_px);
+        let direct = self.surfaces.direct.ensure(&self.gpu, "direct light of surfaces", bytes)?;
+        let view = self.surface_view(wanted)?;
+        let open = no_map(&self.gpu, &mut self.light.no_map)?;
+        let lit = Lit { image: self.surface_image()?, view: &view, direct: &direct };
+        emission::record(&self.gpu, &mut frame, &lit);
+        for (number, light) in wanted.lights.iter().enumerate() {
+            let light = LightParams::new(light, &grid, lighting.offset_voxels());
+            match lighting.shadows {
+                Shadows::March => direct_march::record(&self.gpu, &mut frame, &lit, &light, &self.lit_octree()?),
+                Shadows::Off => direct::record(&self.gpu, &mut frame, &lit, &light, &open),
+                Shadows::Map => {
+                    let map = self.light.maps.get(number).unwrap_or(&open);
+                    direct::record(&self.gpu, &mut frame, &lit, &light, map);
+                }
+            }
+        }
+        Ok(frame)
     }
 
     /// An image of this size: its pixels, 16 bytes each.
     pub(super) fn pixel_bytes([width, height]: [u32; 2]) -> u64 {
-        PIXEL_BYTES * u64::from(width) * u64::from(height)
+        RADIANCE_BYTES * u64::from(width) * u64::from(height)
     }
 
     pub(super) fn surface_image(&self) -> Result<&SurfaceImage, EngineError> {

@@ -35,8 +35,12 @@ pub enum Pass {
     AverageIrradiance,
     /// What the camera sees: places and materials.
     DrawSurfaces,
-    /// Direct light on it, a light at a time.
+    /// Direct light on it begins with what it emits.
+    EmitSurfaces,
+    /// A light at a time, shadows by maps or not at all.
     LightSurfaces,
+    /// The same, shadows marched through the octree.
+    LightByMarching,
     TraceDiffuse,
     /// From pixels that share cones to every pixel.
     FilterDiffuse,
@@ -63,7 +67,7 @@ pub enum Pass {
 
 impl Pass {
     /// Every pass, in frame order.
-    pub const ALL: [Self; 41] = [
+    pub const ALL: [Self; 43] = [
         Self::UploadCaches,
         Self::ObjectIo,
         Self::TransformRigid,
@@ -87,7 +91,9 @@ impl Pass {
         Self::Bounces,
         Self::AverageIrradiance,
         Self::DrawSurfaces,
+        Self::EmitSurfaces,
         Self::LightSurfaces,
+        Self::LightByMarching,
         Self::TraceDiffuse,
         Self::FilterDiffuse,
         Self::ListGlossyTiles,
@@ -144,7 +150,9 @@ impl Pass {
             ],
             Self::CompareExact => &["compare/compare_sets"],
             Self::DrawSurfaces => &["surface/draw"],
+            Self::EmitSurfaces => &["surface/emission"],
             Self::LightSurfaces => &["surface/direct"],
+            Self::LightByMarching => &["surface/direct_march"],
             Self::TraceDiffuse => &["cones/diffuse"],
             Self::FilterDiffuse | Self::FilterSpecular => &["cones/filter"],
             Self::ListGlossyTiles => &["cones/glossy_tiles"],

@@ -102,10 +102,7 @@ pub(super) fn surfaces(
         .or((scene.triangles == 0).then_some("no triangles"));
     let redrawn = absent.is_none() && changed.surfaces;
     plan.push(Pass::DrawSurfaces, unless(absent, redrawn, "camera or objects moved", "camera and objects unmoved"));
-    let unseen = absent.or((!shows_direct(settings)).then_some("not looked at"));
-    let reshadowed = plan.runs(Pass::DrawShadows) || rebuilt && marches_shadows(scene, settings);
-    let lit = redrawn || changed.direct || reshadowed;
-    plan.push(Pass::LightSurfaces, unless(unseen, lit, because(redrawn), "lights and surfaces unchanged"));
+    direct(plan, scene, changed, settings, (absent, redrawn, rebuilt));
     cones(plan, scene, changed, settings, (absent, redrawn, relit));
     let fresh = changed.view || plan.rows.iter().any(|row| OF_PICTURE.contains(&row.pass) && row.state == State::Run);
     plan.push(Pass::ComposeSurfaces, unless(absent, fresh, "a part of the picture is new", "nothing changed"));
@@ -116,8 +113,26 @@ pub(super) fn surfaces(
     plan.push(Pass::ShowSurfaces, unless(absent, fresh, "a part of the picture is new", "nothing changed"));
 }
 
-const OF_PICTURE: [Pass; 5] =
-    [Pass::DrawSurfaces, Pass::LightSurfaces, Pass::TraceDiffuse, Pass::ListGlossyTiles, Pass::TraceSpecular];
+/// What runs with anything that the picture is composed of.
+const OF_PICTURE: [Pass; 4] = [Pass::DrawSurfaces, Pass::EmitSurfaces, Pass::TraceDiffuse, Pass::TraceSpecular];
+
+fn direct(
+    plan: &mut FramePlan,
+    scene: &SceneFacts,
+    changed: &Changes,
+    settings: &Settings,
+    (absent, redrawn, rebuilt): (Option<&'static str>, bool, bool),
+) {
+    let unseen = absent.or((!shows_direct(settings)).then_some("not looked at"));
+    let marches = settings.lighting.shadows == Shadows::March;
+    let lit = redrawn || changed.direct || plan.runs(Pass::DrawShadows) || rebuilt && marches;
+    let because = if redrawn { "surfaces changed" } else { "lights or shadows changed" };
+    let verdict = |skip: Option<&'static str>| unless(unseen.or(skip), lit, because, "lights and surfaces unchanged");
+    let unlit = (scene.lights == 0).then_some("no light in the scene");
+    plan.push(Pass::EmitSurfaces, verdict(None));
+    plan.push(Pass::LightSurfaces, verdict(unlit.or(marches.then_some("shadows are marched"))));
+    plan.push(Pass::LightByMarching, verdict(unlit.or((!marches).then_some("shadows are not marched"))));
+}
 
 fn cones(
     plan: &mut FramePlan,

@@ -51,6 +51,7 @@ mod parts;
 mod plain_octree;
 mod plan;
 mod plan_light;
+mod plan_surfaces;
 mod prepared;
 mod random;
 mod rays;

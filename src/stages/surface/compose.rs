@@ -6,13 +6,11 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use super::RADIANCE_BYTES;
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 use crate::settings::SurfaceView;
 use crate::stages::view::ViewParams;
-
-/// Of an image between the passes: four f32 a pixel, rows from the top.
-pub const PIXEL_BYTES: u64 = 16;
 
 pub const TERM_FINAL: u32 = 0;
 pub const TERM_DIRECT: u32 = 1;
@@ -50,7 +48,7 @@ pub struct Terms<'a> {
     pub specular: Option<&'a GpuBuffer>,
 }
 
-/// Writes `shown`, [`PIXEL_BYTES`] a pixel. A term that is shown must be there.
+/// Writes `shown`, [`RADIANCE_BYTES`] a pixel. A term that is shown must be there.
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
@@ -76,7 +74,7 @@ pub fn record(
         .texture("surface_near", surfaces.near.view())
         .texture("surface_stuff", surfaces.stuff.view())
         .bind("shown", shown)
-        .bytes_moved(pixels * 4 * PIXEL_BYTES);
+        .bytes_moved(pixels * 4 * RADIANCE_BYTES);
     for (name, term) in [("direct", terms.direct), ("diffuse", terms.diffuse), ("specular", terms.specular)] {
         if let Some(buffer) = term.or(nothing) {
             pass = pass.bind(name, buffer);
