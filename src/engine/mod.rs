@@ -220,13 +220,19 @@ impl Engine {
 
     /// Forgets light, shadow maps and pointers alone.
     pub fn invalidate_light(&mut self) {
+        self.invalidate_surfaces();
         self.done.light = None;
-        self.done.direct = None;
-        self.done.diffuse = None;
-        self.done.specular = None;
         self.done.shadows = None;
         self.done.emission = false;
         self.done.links.clear();
+    }
+
+    /// Forgets the surface image and all that is made from it.
+    pub fn invalidate_surfaces(&mut self) {
+        self.done.surfaces = None;
+        self.done.direct = None;
+        self.done.diffuse = None;
+        self.done.specular = None;
     }
 
     /// Kernel times of the results that are there: the last build, and the last picture of it.

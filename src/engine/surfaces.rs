@@ -6,10 +6,10 @@ use super::wanted::Placed;
 use super::{Engine, EngineError, Wanted, missing};
 use crate::data::octree::Slot;
 use crate::data::surface_image::SurfaceImage;
-use crate::gpu::{Gpu, GpuError, GpuTexture, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, GpuError, GpuTexture, Job, Recorder};
 use crate::scene::OrbitCamera;
-use crate::settings::ColorBy;
 use crate::settings::lighting::Shadows;
+use crate::settings::{ColorBy, SurfaceView};
 use crate::stages::light::illuminate::LightParams;
 use crate::stages::mesh::PosedMesh;
 use crate::stages::surface::compose::{self, ComposeParams, Terms};
@@ -85,10 +85,7 @@ impl SurfacesOnGpu {
 
 impl Engine {
     pub(super) fn record_surface_image(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
-        self.done.surfaces = None;
-        self.done.direct = None;
-        self.done.diffuse = None;
-        self.done.specular = None;
+        self.invalidate_surfaces();
         let mut frame = Recorder::default();
         let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
         let (image, depth) = self.surfaces.sized(&self.gpu, wanted.size_px)?;
@@ -143,19 +140,22 @@ impl Engine {
 
     /// What the view asks for, in linear light.
     pub(super) fn record_composed(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
+        let shown = self.surfaces.shown.ensure(&self.gpu, "shown light", Self::pixel_bytes(wanted.size_px))?;
+        self.composed(wanted, wanted.settings.look.surface, &shown)
+    }
+
+    fn composed(&self, wanted: &Wanted, surface: SurfaceView, shown: &GpuBuffer) -> Result<Recorder, EngineError> {
         let mut frame = Recorder::default();
         let view = self.surface_view(wanted)?;
         let asked = wanted.cones_asked();
-        let prepared = self.prepared.clone().ok_or(EngineError::NoScene)?;
-        let shown = self.surfaces.shown.ensure(&self.gpu, "shown light", Self::pixel_bytes(wanted.size_px))?;
         let params = ComposeParams {
             sky: wanted.settings.lighting.sky_nits.map(|channel| channel as f32),
             glossy_roughness: wanted.settings.cone_tracing.glossy_roughness as f32,
-            span: prepared.grid.span as f32,
+            span: self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid.span as f32,
             pad: 0,
             pad_end: [0; 2],
         };
-        let made = |slot: &Slot, is_asked: bool| slot.get().filter(|_| is_asked).cloned();
+        let made = |slot: &Slot, is_made: bool| slot.get().filter(|_| is_made).cloned();
         let direct = made(&self.surfaces.direct, self.done.direct.is_some());
         let diffuse = made(&self.surfaces.diffuse, self.done.diffuse.is_some());
         let specular = made(&self.surfaces.specular, self.done.specular.is_some() && asked.specular.is_ok());
@@ -166,9 +166,30 @@ impl Engine {
             has_occlusion: asked.occlusion.is_ok(),
             specular: specular.as_ref(),
         };
-        let surface = wanted.settings.look.surface;
-        compose::record(&self.gpu, &mut frame, self.surface_image()?, (&view, &params), (surface, terms), &shown);
+        compose::record(&self.gpu, &mut frame, self.surface_image()?, (&view, &params), (surface, terms), shown);
         Ok(frame)
+    }
+
+    /// A part of the finished frame, as [`Self::read_surfaces`] gives what is shown; `None` where that frame
+    /// did not make it. Blocks until it is here.
+    pub fn read_surface_part(&self, part: SurfaceView) -> Result<Option<Vec<[f32; 4]>>, EngineError> {
+        let Some(wanted) = self.wanted.as_ref().filter(|wanted| wanted.shows_surfaces()) else { return Ok(None) };
+        let is_made = match part {
+            SurfaceView::Final => wanted.settings.look.surface == SurfaceView::Final,
+            SurfaceView::Direct => self.done.direct.is_some(),
+            SurfaceView::Diffuse | SurfaceView::Irradiance | SurfaceView::Ao => self.done.diffuse.is_some(),
+            SurfaceView::Specular => self.done.specular.is_some() || self.done.diffuse.is_some(),
+            _ => self.done.surfaces.is_some(),
+        };
+        if !is_made || part == SurfaceView::Ao && wanted.cones_asked().occlusion.is_err() {
+            return Ok(None);
+        }
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        let shown = self.gpu.buffer("a part of shown light", Self::pixel_bytes(wanted.size_px), usage)?;
+        Job::new(self.composed(wanted, part, &shown)?).run_to_end(&self.gpu)?;
+        // Not a kernel of the frame.
+        self.gpu.take_timings();
+        Ok(Some(self.gpu.read(&shown, 0..shown.bytes())?))
     }
 
     pub(super) fn record_luminance(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
