@@ -101,11 +101,7 @@ impl Engine {
         let sampled = SampledOctree::new(&octree.params, &octree.buffers, &light, look.slice.lookup)?;
         let view = ViewParams::new(rays, look, octree.params.depth);
         let range = self.slice_range(&wanted.settings);
-        let palette = Palette::new(match look.slice.value {
-            SliceValue::Radiance => ColorBy::Radiance,
-            SliceValue::Irradiance => ColorBy::Irradiance,
-            SliceValue::Occupancy => ColorBy::Occupancy,
-        });
+        let palette = Palette::new(look.slice.value.color());
         slice::record(&self.gpu, frame, &sampled, (&look.slice, range), (&view, &palette), picture);
         Ok(())
     }
