@@ -74,8 +74,8 @@ fn faced(first: Vertex, edges: array<vec3<f32>, 2>, uv_edges: array<vec2<f32>, 2
     return v;
 }
 
-fn uv_edge(from: MeshVertex, to: MeshVertex) -> vec2<f32> {
-    return slot_uv(draw.normal_slot, to.tex_coords) - slot_uv(draw.normal_slot, from.tex_coords);
+fn uv_edge(a: MeshVertex, b: MeshVertex) -> vec2<f32> {
+    return slot_uv(draw.normal_slot, b.tex_coords) - slot_uv(draw.normal_slot, a.tex_coords);
 }
 
 @vertex
@@ -117,14 +117,14 @@ fn mapped_normal(v: Vertex, normal: vec3<f32>) -> vec3<f32> {
         return normal;
     }
     let texel = 2.0 * textureSample(normal_map, normal_sampler, slot_uv(draw.normal_slot, v.tex_coords)).xyz - 1.0;
-    let from = select(v.face_tangent, v.tangent, draw.has_tangents != 0u);
-    let across = from.xyz - dot(from.xyz, normal) * normal;
+    let given = select(v.face_tangent, v.tangent, draw.has_tangents != 0u);
+    let across = given.xyz - dot(given.xyz, normal) * normal;
     let square = dot(across, across);
     if square < 1e-12 {
         return normal;
     }
     let tangent = across * inverseSqrt(square);
-    let bitangent = cross(normal, tangent) * sign(from.w);
+    let bitangent = cross(normal, tangent) * sign(given.w);
     let turned = draw.normal_scale * (texel.x * tangent + texel.y * bitangent) + texel.z * normal;
     return select(unit(turned), normal, dot(turned, turned) < 1e-12);
 }

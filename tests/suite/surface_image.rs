@@ -1,0 +1,286 @@
+//! The surface image: places, normals and materials of what the camera sees, against closed forms.
+
+use std::sync::Arc;
+
+use glam::{Affine2, DMat3, DQuat, DVec3, Vec2, Vec4};
+use octolume::color::linear_from_gamma;
+use octolume::data::surface_image::SurfaceTexel;
+use octolume::gpu::{Gpu, Job};
+use octolume::scene::{AlphaMode, LocalTransform, Material, Node, Scene, Texture, TextureRef, Trs, Wrap};
+use octolume::stages::surface::LEAST_EYE_COSINE;
+
+use crate::device::open;
+use crate::mesh_rig::{self, SIZE_PX, meets, node, one_square, pixels, scene, skinned_square, square};
+use crate::surface_rig::{Shot, is_there};
+
+fn shot(scene: &Scene) -> Shot<'_> {
+    Shot::new(scene, mesh_rig::camera(), mesh_rig::grid(), SIZE_PX)
+}
+
+fn drawn(scene: &Scene) -> Vec<SurfaceTexel> {
+    shot(scene).drawn().texels
+}
+
+/// Of the square at z = 0, well inside it, with the place in scene units.
+fn inside(texels: &[SurfaceTexel]) -> impl Iterator<Item = (DVec3, &SurfaceTexel)> {
+    let on_square = pixels().map(|(index, point)| (meets(point, 0.0).0, index));
+    on_square.filter(|(place, _)| place.truncate().abs().max_element() < 0.97).map(|(place, i)| (place, &texels[i]))
+}
+
+fn texture(image: image::RgbaImage) -> Texture {
+    Texture { name: "image".to_owned(), image: Arc::new(image), wrap: [Wrap::Repeat; 2], nearest: true }
+}
+
+fn plain(texel: [u8; 4]) -> Texture {
+    texture(image::RgbaImage::from_pixel(2, 2, image::Rgba(texel)))
+}
+
+/// The normal that a texel stands for, in the frame of the surface.
+fn decoded(texel: [u8; 4]) -> DVec3 {
+    DVec3::from_array([0, 1, 2].map(|lane| f64::from(texel[lane]) / 127.5 - 1.0)).normalize()
+}
+
+fn assert_normals(scene: &Scene, expected: DVec3, what: &str) {
+    let texels = drawn(scene);
+    let mut count = 0;
+    for (place, texel) in inside(&texels) {
+        assert!(texel.normal.distance(expected) < 2e-3, "{what}: {} is not {expected} at {place}", texel.normal);
+        count += 1;
+    }
+    assert!(count > 200, "{what}: {count} pixels");
+}
+
+#[test]
+fn a_texel_is_where_its_ray_meets_the_surface() {
+    let material = Material { base_color: [0.2, 0.5, 0.9, 1.0], roughness: 0.4, metallic: 0.6, ..Material::default() };
+    let texels = drawn(&one_square(material));
+    let mut there = 0;
+    for (index, point) in pixels() {
+        let (place, distance) = meets(point, 0.0);
+        let from_border = 1.0 - place.abs().x.max(place.abs().y);
+        let texel = &texels[index];
+        if from_border.abs() < 1e-4 {
+            continue;
+        }
+        assert_eq!(is_there(texel), from_border > 0.0, "{place}");
+        if from_border > 0.0 {
+            there += 1;
+            let error = f64::from(texel.distance_cells) / distance - 1.0;
+            assert!(error.abs() < 1e-5, "{place}: off by {error}");
+            assert!(texel.face.distance(DVec3::Z) < 1e-4 && texel.normal.distance(DVec3::Z) < 1e-4);
+            assert!(texel.albedo.iter().zip([0.2, 0.5, 0.9]).all(|(found, e)| (found - e).abs() < 2e-5));
+            assert!((texel.roughness - 0.4).abs() < 0.002 + 1e-6 && (texel.metallic - 0.6).abs() < 0.002 + 1e-6);
+            assert_eq!(texel.emission_nits, [0.0; 3]);
+        }
+    }
+    assert!(there > 200, "{there} pixels");
+}
+
+#[test]
+fn both_sides_face_the_eye_mirrored_or_not() {
+    for double_sided in [false, true] {
+        for (turn, scale) in [(0.0, 1.0), (180.0, 1.0), (0.0, -1.0), (180.0, -1.0)] {
+            let mut scene = one_square(Material { double_sided, ..Material::default() });
+            scene.nodes[0].local = LocalTransform::Trs(Trs {
+                rotation: DQuat::from_rotation_y(f64::to_radians(turn)),
+                scale: DVec3::new(scale, 1.0, 1.0),
+                ..Trs::default()
+            });
+            let texels = drawn(&scene);
+            for (place, texel) in inside(&texels) {
+                assert!(texel.face.distance(DVec3::Z) < 1e-4, "{} turned {turn}, {scale}, at {place}", texel.face);
+                assert!(texel.normal.distance(DVec3::Z) < 1e-4, "{} turned {turn}, {scale}, at {place}", texel.normal);
+            }
+        }
+    }
+}
+
+#[test]
+fn skinned_and_instanced_surfaces_are_where_they_are_moved() {
+    let half = [[0.5, 0.5, 0.0, 0.0]; 4];
+    let skinned = skinned_square([DVec3::ZERO, DVec3::Z], half);
+    let at = |z| Node { mesh: Some(0), ..node("square", DVec3::new(0.0, 0.0, z)) };
+    let instanced = scene(vec![square()], vec![at(-0.5), at(0.5)]);
+    for (scene, what) in [(&skinned, "skinned"), (&instanced, "instanced")] {
+        let texels = drawn(scene);
+        for (index, point) in pixels() {
+            let (place, distance) = meets(point, 0.5);
+            if place.truncate().abs().max_element() < 0.99 {
+                let texel = &texels[index];
+                let error = f64::from(texel.distance_cells) / distance - 1.0;
+                assert!(error.abs() < 1e-5, "{what} at {place}: off by {error}");
+                assert!(texel.face.distance(DVec3::Z) < 1e-4 && texel.normal.distance(DVec3::Z) < 1e-4, "{what}");
+            }
+        }
+    }
+}
+
+/// Albedo and emission as sRGB, roughness and metalness as plain shares; each slot with coordinates of its own.
+#[test]
+fn every_texture_is_read_where_and_as_its_slot_says() {
+    let halves = |left: [u8; 4], right: [u8; 4]| {
+        texture(image::RgbaImage::from_fn(8, 8, |x, _| image::Rgba(if x < 4 { left } else { right })))
+    };
+    let textures = vec![
+        halves([188, 0, 0, 255], [0, 188, 0, 255]),
+        halves([9, 51, 204, 255], [9, 204, 51, 255]),
+        halves([100, 0, 0, 255], [0, 0, 200, 255]),
+    ];
+    let half_turn = Affine2::from_translation(Vec2::new(0.5, 0.0));
+    let material = Material {
+        base_color: [0.5, 0.5, 0.5, 1.0],
+        base_color_texture: Some(TextureRef::new(0, 0)),
+        metallic: 0.5,
+        roughness: 1.0,
+        metallic_roughness_texture: Some(TextureRef::new(1, 1)),
+        emissive: [2.0, 1.0, 3.0],
+        emissive_texture: Some(TextureRef { uv_from_tex_coord: half_turn, ..TextureRef::new(2, 0) }),
+        ..Material::default()
+    };
+    let mut scene = Scene { textures, ..one_square(material) };
+    let primitive = &mut scene.meshes[0].primitives[0];
+    // The second coordinates turn left into right.
+    primitive.tex_coords[1] = primitive.tex_coords[0].iter().map(|uv| Vec2::new(1.0 - uv.x, uv.y)).collect();
+    primitive.colors = vec![Vec4::new(1.0, 0.5, 1.0, 1.0); 4];
+    let mut shot = shot(&scene);
+    shot.emission = 10.0;
+    let texels = shot.drawn().texels;
+    let light = |byte: f64| linear_from_gamma(byte / 255.0);
+    for (place, texel) in inside(&texels).filter(|(place, _)| place.x.abs() > 0.1 && place.x.abs() < 0.9) {
+        let is_left = place.x < 0.0;
+        let vertex = 128.0 / 255.0;
+        let albedo = if is_left { [0.5 * light(188.0), 0.0, 0.0] } else { [0.0, 0.5 * vertex * light(188.0), 0.0] };
+        // Read at the second coordinates: the right half on the left.
+        let (rough, metal) = if is_left { (204.0, 51.0) } else { (51.0, 204.0) };
+        let emission = if is_left { [0.0, 0.0, 30.0 * light(200.0)] } else { [20.0 * light(100.0), 0.0, 0.0] };
+        for lane in 0..3 {
+            assert!((texel.albedo[lane] - albedo[lane]).abs() < 0.5 / 255.0, "{:?} at {place}", texel.albedo);
+            let found = f64::from(texel.emission_nits[lane]);
+            let nits = 10.0 * f64::from(scene.materials[0].emissive[lane]);
+            assert!((found - emission[lane]).abs() < 0.5 / 255.0 * nits, "{found} at {place}");
+        }
+        assert!((texel.roughness - rough / 255.0).abs() < 1e-6, "{} at {place}", texel.roughness);
+        assert!((texel.metallic - 0.5 * metal / 255.0).abs() < 0.002, "{} at {place}", texel.metallic);
+    }
+}
+
+const BUMP: [u8; 4] = [218, 128, 218, 255];
+
+fn bumped(texel: [u8; 4], material: Material) -> Scene {
+    let material = Material { normal_texture: Some(TextureRef::new(0, 0)), ..material };
+    Scene { textures: vec![plain(texel)], ..one_square(material) }
+}
+
+#[test]
+fn normal_maps_turn_the_normal_in_the_frame_of_the_texture() {
+    let expected = decoded(BUMP);
+    assert!((expected.x - expected.z).abs() < 1e-12, "45 degrees");
+    let mut scene = bumped(BUMP, Material::default());
+    assert_normals(&scene, expected, "u grows along x");
+    let up = [128, 218, 218, 255];
+    assert_normals(&bumped(up, Material::default()), decoded(up), "green is up, where v falls");
+    let scaled = DVec3::new(0.5 * expected.x, 0.5 * expected.y, expected.z).normalize();
+    assert_normals(&bumped(BUMP, Material { normal_scale: 0.5, ..Material::default() }), scaled, "half the scale");
+    // Texture coordinates turned by 90 degrees: u grows along y.
+    let quarter = Affine2::from_angle(std::f32::consts::FRAC_PI_2);
+    let mut turned = scene.clone();
+    turned.materials[0].normal_texture = Some(TextureRef { uv_from_tex_coord: quarter, ..TextureRef::new(0, 0) });
+    let about_z = DMat3::from_rotation_z(std::f64::consts::FRAC_PI_2) * expected;
+    assert_normals(&turned, about_z, "texture coordinates turned");
+    // The vertices' own frame: tangent up, bitangent by its handedness.
+    for handed in [1.0, -1.0] {
+        scene.meshes[0].primitives[0].tangents = vec![Vec4::new(0.0, 1.0, 0.0, handed); 4];
+        let bitangent = DVec3::Z.cross(DVec3::Y) * f64::from(handed);
+        let expected = expected.x * DVec3::Y + expected.y * bitangent + expected.z * DVec3::Z;
+        assert_normals(&scene, expected, "tangents");
+    }
+    // Coordinates without extent give no frame.
+    let mut pinched = bumped(BUMP, Material::default());
+    pinched.meshes[0].primitives[0].tex_coords[0] = vec![Vec2::ZERO; 4];
+    assert_normals(&pinched, DVec3::Z, "no frame");
+}
+
+/// A bump seen from behind is a dent, and a mirrored one leans the other way, with tangents or without.
+#[test]
+fn normal_maps_turn_and_mirror_with_their_surface() {
+    let bump = decoded([218, 160, 218, 255]);
+    for with_tangents in [false, true] {
+        for (turn, mirror) in [(0.0, 1.0), (180.0, 1.0), (0.0, -1.0), (180.0, -1.0)] {
+            let mut scene = bumped([218, 160, 218, 255], Material::default());
+            if with_tangents {
+                scene.meshes[0].primitives[0].tangents = vec![Vec4::new(1.0, 0.0, 0.0, 1.0); 4];
+            }
+            let rotation = DQuat::from_rotation_y(f64::to_radians(turn));
+            let scale = DVec3::new(mirror, 1.0, 1.0);
+            scene.nodes[0].local = LocalTransform::Trs(Trs { rotation, scale, ..Trs::default() });
+            // The reflection is its own inverse transpose.
+            let moved = rotation * (scale * bump);
+            let expected = if moved.z < 0.0 { -moved } else { moved };
+            assert_normals(&scene, expected, &format!("turned {turn}, mirrored {mirror}, tangents {with_tangents}"));
+        }
+    }
+}
+
+#[test]
+fn normals_that_turn_away_from_the_eye_are_moved_back_to_it() {
+    let away = [255, 128, 130, 255];
+    for angle in [0.0, 180.0_f64] {
+        let mut scene = bumped(away, Material::default());
+        scene.nodes[0].local = LocalTransform::Trs(Trs {
+            rotation: DQuat::from_rotation_y(angle.to_radians()) * DQuat::from_rotation_z(angle.to_radians()),
+            ..Trs::default()
+        });
+        let shot = shot(&scene);
+        let texels = shot.drawn().texels;
+        let (mut least, mut moved) = (f64::INFINITY, 0);
+        for (pixel, texel) in texels.iter().enumerate().filter(|(_, texel)| is_there(texel)) {
+            let cosine = texel.normal.dot(shot.place(pixel, texel).1);
+            least = least.min(cosine);
+            moved += usize::from(cosine < LEAST_EYE_COSINE + 1e-4);
+        }
+        assert!(least > LEAST_EYE_COSINE - 1e-4, "{least}");
+        assert!(moved > 20, "{moved} moved");
+    }
+}
+
+#[test]
+fn masks_cut_out_blends_thin_out_and_unlit_colours_glow() {
+    let with = |alpha_mode, alpha| {
+        let material = Material { alpha_mode, base_color: [1.0, 1.0, 1.0, alpha], ..Material::default() };
+        let texels = drawn(&one_square(material));
+        let there: Vec<f64> = inside(&texels).map(|(_, texel)| f64::from(u8::from(is_there(texel)))).collect();
+        there.iter().sum::<f64>() / there.len() as f64
+    };
+    assert_eq!(with(AlphaMode::Mask { cutoff: 0.5 }, 0.4), 0.0);
+    assert_eq!(with(AlphaMode::Mask { cutoff: 0.5 }, 0.6), 1.0);
+    assert_eq!(with(AlphaMode::Opaque, 0.1), 1.0);
+    let share = with(AlphaMode::Blend, 0.25);
+    assert!((share - 0.25).abs() < 0.05, "{share}");
+    let unlit = Material { unlit: true, base_color: [0.2, 0.4, 0.6, 1.0], emissive: [7.0; 3], ..Material::default() };
+    let scene = one_square(unlit);
+    let texels = Shot { emission: 5.0, ..shot(&scene) }.drawn().texels;
+    for (_, texel) in inside(&texels) {
+        assert_eq!((texel.albedo, texel.metallic), ([0.0; 3], 1.0));
+        let glows = texel.emission_nits.iter().zip([0.2, 0.4, 0.6]).all(|(found, e)| (found - e).abs() < 1e-6);
+        assert!(glows, "{:?}", texel.emission_nits);
+    }
+}
+
+#[test]
+fn slices_of_a_draw_make_the_whole_image() {
+    let gpu: Gpu = open();
+    let many = |count: usize| {
+        let at = |i: usize| Node { mesh: Some(0), ..node("square", DVec3::new(0.0, 0.0, i as f64 * 1e-3)) };
+        scene(vec![square()], (0..count).map(at).collect())
+    };
+    let scene = many(200);
+    let (frame, image) = shot(&scene).recorded(&gpu);
+    let mut job = Job::new(frame);
+    let mut polls = 0;
+    while job.advance(&gpu, std::time::Duration::from_micros(1)).expect("runs") != octolume::gpu::JobState::Done {
+        polls += 1;
+        std::thread::sleep(std::time::Duration::from_micros(100));
+    }
+    assert!(polls > 0);
+    assert_eq!(image.read(&gpu).expect("readable"), drawn(&scene));
+}
