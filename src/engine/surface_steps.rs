@@ -48,18 +48,19 @@ impl SurfaceTimings {
 impl SurfaceStep {
     /// From the surface image to what is shown of it.
     pub fn of_plan(plan: &FramePlan) -> impl Iterator<Item = Self> {
-        const STEPS: [(Pass, &[SurfaceStep]); 9] = [
-            (Pass::DrawSurfaces, &[SurfaceStep::Image]),
-            (Pass::LightSurfaces, &[SurfaceStep::Direct]),
-            (Pass::TraceDiffuse, &[SurfaceStep::Diffuse]),
-            (Pass::FilterDiffuse, &[SurfaceStep::FilterDiffuse]),
-            (Pass::ListGlossyTiles, &[SurfaceStep::GlossyTiles, SurfaceStep::GlossyCount]),
-            (Pass::TraceSpecular, &[SurfaceStep::Specular]),
-            (Pass::FilterSpecular, &[SurfaceStep::FilterSpecular]),
-            (Pass::ComposeSurfaces, &[SurfaceStep::Compose]),
-            (Pass::MeasureExposure, &[SurfaceStep::Luminance, SurfaceStep::MeanLuminance]),
+        const STEPS: [(&[Pass], &[SurfaceStep]); 9] = [
+            (&[Pass::DrawSurfaces], &[SurfaceStep::Image]),
+            (&[Pass::EmitSurfaces], &[SurfaceStep::Direct]),
+            (&[Pass::TraceDiffuse], &[SurfaceStep::Diffuse]),
+            (&[Pass::BlurDiffuse, Pass::UpsampleDiffuse], &[SurfaceStep::FilterDiffuse]),
+            (&[Pass::ListGlossyTiles], &[SurfaceStep::GlossyTiles, SurfaceStep::GlossyCount]),
+            (&[Pass::TraceSpecular], &[SurfaceStep::Specular]),
+            (&[Pass::UpsampleSpecular], &[SurfaceStep::FilterSpecular]),
+            (&[Pass::ComposeSurfaces], &[SurfaceStep::Compose]),
+            (&[Pass::MeasureExposure], &[SurfaceStep::Luminance, SurfaceStep::MeanLuminance]),
         ];
-        STEPS.into_iter().filter(|(pass, _)| plan.runs(*pass)).flat_map(|(_, steps)| steps.iter().copied())
+        let runs = |passes: &[Pass]| passes.iter().any(|pass| plan.runs(*pass));
+        STEPS.into_iter().filter(move |(passes, _)| runs(passes)).flat_map(|(_, steps)| steps.iter().copied())
     }
 }
 

@@ -116,10 +116,10 @@ impl Engine {
         let lights = posed_lights(&prepared.scene, &pose, &settings.lighting, &shown, emits);
         let glossy_roughness = settings.cone_tracing.glossy_roughness;
         let facts = scene_on_gpu::facts(prepared, &frame, &hidden, glossy_roughness);
-        let facts = SceneFacts { lights: lights.len() as u32, ..facts };
-        let placed = Placed { pose: Arc::new(pose), hidden };
         // A picture has at least one pixel.
         let size_px = size_px.map(|size| size.max(1));
+        let facts = SceneFacts { lights: lights.len() as u32, picture_px: size_px, ..facts };
+        let placed = Placed { pose: Arc::new(pose), hidden };
         let camera = camera(prepared, settings, &placed.pose, size_px);
         self.wanted = Some(Wanted { settings: settings.clone(), size_px, camera, placed, lights, frame, facts });
         if self.running.is_none() {

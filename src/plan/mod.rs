@@ -29,6 +29,8 @@ pub struct SceneFacts {
     pub emissive_voxels: u64,
     /// Some surface may be smooth enough for a specular cone.
     pub glossy: bool,
+    /// Size of the picture.
+    pub picture_px: [u32; 2],
 }
 
 impl SceneFacts {

@@ -42,12 +42,14 @@ pub enum Pass {
     /// The same, shadows marched through the octree.
     LightByMarching,
     TraceDiffuse,
-    /// From pixels that share cones to every pixel.
-    FilterDiffuse,
+    /// Pixels share cones with those around them on the same surface.
+    BlurDiffuse,
+    /// From fewer pixels to those of the picture.
+    UpsampleDiffuse,
     /// Where a specular cone is called for.
     ListGlossyTiles,
     TraceSpecular,
-    FilterSpecular,
+    UpsampleSpecular,
     /// What is shown of it, as linear light.
     ComposeSurfaces,
     MeasureExposure,
@@ -67,7 +69,7 @@ pub enum Pass {
 
 impl Pass {
     /// Every pass, in frame order.
-    pub const ALL: [Self; 43] = [
+    pub const ALL: [Self; 44] = [
         Self::UploadCaches,
         Self::ObjectIo,
         Self::TransformRigid,
@@ -95,10 +97,11 @@ impl Pass {
         Self::LightSurfaces,
         Self::LightByMarching,
         Self::TraceDiffuse,
-        Self::FilterDiffuse,
+        Self::BlurDiffuse,
+        Self::UpsampleDiffuse,
         Self::ListGlossyTiles,
         Self::TraceSpecular,
-        Self::FilterSpecular,
+        Self::UpsampleSpecular,
         Self::ComposeSurfaces,
         Self::MeasureExposure,
         Self::ShowSurfaces,
@@ -154,8 +157,9 @@ impl Pass {
             Self::LightSurfaces => &["surface/direct"],
             Self::LightByMarching => &["surface/direct_march"],
             Self::TraceDiffuse => &["cones/diffuse"],
-            Self::FilterDiffuse | Self::FilterSpecular => &["cones/filter"],
-            Self::ListGlossyTiles => &["cones/glossy_tiles"],
+            Self::BlurDiffuse => &["cones/blur"],
+            Self::UpsampleDiffuse | Self::UpsampleSpecular => &["cones/upsample"],
+            Self::ListGlossyTiles => &["cones/glossy_tiles", "build/scan_sum", "build/scan_spread", "cones/list_tiles"],
             Self::TraceSpecular => &["cones/specular"],
             Self::ComposeSurfaces => &["surface/compose"],
             Self::MeasureExposure => &["surface/sum_luminance"],

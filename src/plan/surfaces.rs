@@ -148,13 +148,17 @@ fn cones(
     };
     let diffuse = verdict(asked.diffuse().err(), changed.diffuse);
     plan.push(Pass::TraceDiffuse, diffuse);
-    let whole = (!settings.cone_tracing.shares_diffuse()).then_some("every pixel has all its cones");
-    plan.push(Pass::FilterDiffuse, verdict(asked.diffuse().err().or(whole), changed.diffuse));
+    let cones = &settings.cone_tracing;
+    let size_px = scene.picture_px;
+    let alone = (cones.pattern_px == 1).then_some("every pixel has all its cones");
+    let whole = (cones.diffuse_size_px(size_px) == size_px).then_some("every pixel sends out cones");
+    plan.push(Pass::BlurDiffuse, verdict(asked.diffuse().err().or(alone), changed.diffuse));
+    plan.push(Pass::UpsampleDiffuse, verdict(asked.diffuse().err().or(whole), changed.diffuse));
     let specular = verdict(asked.specular.err(), changed.specular);
     plan.push(Pass::ListGlossyTiles, specular);
     plan.push(Pass::TraceSpecular, specular);
-    let whole = (!settings.cone_tracing.shares_specular()).then_some("every pixel has its cone");
-    plan.push(Pass::FilterSpecular, verdict(asked.specular.err().or(whole), changed.specular));
+    let whole = (cones.specular_size_px(size_px) == size_px).then_some("every pixel sends out its cone");
+    plan.push(Pass::UpsampleSpecular, verdict(asked.specular.err().or(whole), changed.specular));
 }
 
 fn because(redrawn: bool) -> &'static str {

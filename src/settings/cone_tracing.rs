@@ -84,16 +84,6 @@ impl ConeTracing {
         if self.half_resolution { size_px.map(|side| side.div_ceil(2)) } else { size_px }
     }
 
-    /// Pixels of the picture take diffuse cones from their neighbours.
-    pub fn shares_diffuse(&self) -> bool {
-        self.pattern_px > 1 || self.half_resolution || self.shares_specular()
-    }
-
-    /// Pixels of the picture may take specular cones from their neighbours.
-    pub fn shares_specular(&self) -> bool {
-        self.indirect_px.is_some()
-    }
-
     /// Are all values in range? If not, the sentence names value and range.
     pub(super) fn check(&self) -> Result<(), String> {
         let within = |what: &str, value: f64, range: RangeInclusive<f64>| {

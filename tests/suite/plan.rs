@@ -14,8 +14,15 @@ use proptest::prelude::*;
 
 use crate::scenes::{at, cube_scene, skinned_scene, sliding_scene};
 
-pub const RIGID: SceneFacts =
-    SceneFacts { rigid_voxels: 100, skinned_voxels: 0, triangles: 12, lights: 0, emissive_voxels: 0, glossy: false };
+pub const RIGID: SceneFacts = SceneFacts {
+    rigid_voxels: 100,
+    skinned_voxels: 0,
+    triangles: 12,
+    lights: 0,
+    emissive_voxels: 0,
+    glossy: false,
+    picture_px: [64, 48],
+};
 const SKINNED: SceneFacts = SceneFacts { rigid_voxels: 0, skinned_voxels: 100, ..RIGID };
 pub const FIRST: Changes = Changes {
     caches: true,

@@ -18,8 +18,14 @@ const SAME: Changes = Changes {
     specular: false,
     ..STILL
 };
-const CONES: [Pass; 5] =
-    [Pass::TraceDiffuse, Pass::FilterDiffuse, Pass::ListGlossyTiles, Pass::TraceSpecular, Pass::FilterSpecular];
+const CONES: [Pass; 6] = [
+    Pass::TraceDiffuse,
+    Pass::BlurDiffuse,
+    Pass::UpsampleDiffuse,
+    Pass::ListGlossyTiles,
+    Pass::TraceSpecular,
+    Pass::UpsampleSpecular,
+];
 const SHOWN: [Pass; 3] = [Pass::ComposeSurfaces, Pass::MeasureExposure, Pass::ShowSurfaces];
 
 fn showing(surface: SurfaceView) -> Settings {
@@ -60,8 +66,11 @@ fn a_sun_on_matte_surfaces_calls_for_diffuse_cones_alone() {
         let plan = plan(scene, &FIRST, &showing(SurfaceView::Final));
         CONES.into_iter().filter(|pass| plan.runs(*pass)).collect::<Vec<_>>()
     };
-    assert_eq!(of(&SUN), [Pass::TraceDiffuse, Pass::FilterDiffuse]);
-    assert_eq!(of(&GLOSSY), [Pass::TraceDiffuse, Pass::FilterDiffuse, Pass::ListGlossyTiles, Pass::TraceSpecular]);
+    assert_eq!(of(&SUN), [Pass::TraceDiffuse, Pass::BlurDiffuse, Pass::UpsampleDiffuse]);
+    assert_eq!(
+        of(&GLOSSY),
+        [Pass::TraceDiffuse, Pass::BlurDiffuse, Pass::UpsampleDiffuse, Pass::ListGlossyTiles, Pass::TraceSpecular]
+    );
     let matte = plan(&SUN, &FIRST, &showing(SurfaceView::Specular));
     assert_eq!(reason(&matte, Pass::TraceSpecular), (State::Skip, "no glossy surface in the scene"));
 }
@@ -120,7 +129,14 @@ fn each_part_calls_for_what_it_shows() {
 fn a_moved_camera_draws_and_traces_again_and_lights_no_voxel() {
     let changed = Changes { view: true, surfaces: true, ..SAME };
     let expected = [
-        &[Pass::DrawSurfaces, Pass::EmitSurfaces, Pass::LightSurfaces, Pass::TraceDiffuse, Pass::FilterDiffuse],
+        &[
+            Pass::DrawSurfaces,
+            Pass::EmitSurfaces,
+            Pass::LightSurfaces,
+            Pass::TraceDiffuse,
+            Pass::BlurDiffuse,
+            Pass::UpsampleDiffuse,
+        ],
         &[Pass::ListGlossyTiles, Pass::TraceSpecular][..],
         &SHOWN,
     ];
@@ -135,7 +151,7 @@ fn a_changed_light_draws_no_surface() {
     assert_eq!(reason(&plan, Pass::DrawSurfaces), (State::Reuse, "camera and objects unmoved"));
     let expected = [
         &[Pass::Illuminate, Pass::InjectLight, Pass::AverageLight, Pass::EmitSurfaces, Pass::LightSurfaces][..],
-        &[Pass::TraceDiffuse, Pass::FilterDiffuse],
+        &[Pass::TraceDiffuse, Pass::BlurDiffuse, Pass::UpsampleDiffuse],
         &SHOWN,
     ];
     assert_eq!(running(&plan), expected.concat());
@@ -145,14 +161,18 @@ fn a_changed_light_draws_no_surface() {
 fn pixels_that_share_no_cones_need_no_filter() {
     let mut settings = showing(SurfaceView::Final);
     settings.cone_tracing.half_resolution = false;
-    assert!(plan(&GLOSSY, &FIRST, &settings).runs(Pass::FilterDiffuse), "a pattern is shared");
+    let shared = plan(&GLOSSY, &FIRST, &settings);
+    assert!(shared.runs(Pass::BlurDiffuse));
+    assert_eq!(reason(&shared, Pass::UpsampleDiffuse), (State::Skip, "every pixel sends out cones"));
     settings.cone_tracing.pattern_px = 1;
     let whole = plan(&GLOSSY, &FIRST, &settings);
-    assert_eq!(reason(&whole, Pass::FilterDiffuse), (State::Skip, "every pixel has all its cones"));
-    assert_eq!(reason(&whole, Pass::FilterSpecular), (State::Skip, "every pixel has its cone"));
+    assert_eq!(reason(&whole, Pass::BlurDiffuse), (State::Skip, "every pixel has all its cones"));
+    assert_eq!(reason(&whole, Pass::UpsampleSpecular), (State::Skip, "every pixel sends out its cone"));
     settings.cone_tracing.indirect_px = Some([1280, 720]);
-    let paper = plan(&GLOSSY, &FIRST, &settings);
-    assert!(paper.runs(Pass::FilterDiffuse) && paper.runs(Pass::FilterSpecular));
+    assert!(!plan(&GLOSSY, &FIRST, &settings).runs(Pass::UpsampleDiffuse), "the picture is no larger");
+    let large = SceneFacts { picture_px: [1920, 1080], ..GLOSSY };
+    let paper = plan(&large, &FIRST, &settings);
+    assert!(paper.runs(Pass::UpsampleDiffuse) && paper.runs(Pass::UpsampleSpecular));
 }
 
 #[test]
