@@ -90,7 +90,8 @@ pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
     ("LUMINANCE_GREEN", LUMINANCE[1]),
     ("LUMINANCE_RED", LUMINANCE[0]),
     ("PI", std::f64::consts::PI),
-    ("SHADOW_OFFSET_CELLS", surface::SHADOW_OFFSET_CELLS),
+    ("SHADOW_HEIGHT_CELLS", surface::SHADOW_HEIGHT_CELLS),
+    ("SHADOW_HEIGHT_TEXELS", surface::SHADOW_HEIGHT_TEXELS),
     ("SHORT_NORMAL", view::SHORT_NORMAL),
     ("SPREAD_COSINE", light::SPREAD_COSINE),
 ];
