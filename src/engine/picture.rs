@@ -8,7 +8,6 @@ use crate::color::srgb_byte;
 use crate::data::octree::{OctreeParams, Slot};
 use crate::gpu::{GpuError, GpuTexture, Recorder};
 use crate::scene::OrbitCamera;
-use crate::scene::camera::camera_from_scene_camera;
 use crate::settings::{Hidden, View};
 use crate::stages::build::COUNTERS;
 use crate::stages::build::reduce::{self, Masks};
@@ -131,18 +130,9 @@ impl Engine {
         Ok(self.picture.insert(Picture::new(&self.gpu, size_px)?).clone())
     }
 
-    /// The camera that is set, else the file's first, else one that frames everything.
     pub(super) fn camera(&self, wanted: &Wanted) -> Result<OrbitCamera, EngineError> {
-        if let Some(camera) = wanted.settings.look.camera {
-            return Ok(camera);
-        }
         let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
-        let pose = prepared.pose(&wanted.settings.motion)?;
-        Ok(camera_from_scene_camera(&prepared.scene, 0, &pose).unwrap_or_else(|| {
-            let mut camera = OrbitCamera::default();
-            camera.frame(prepared.bounds, f64::from(wanted.size_px[0]) / f64::from(wanted.size_px[1]));
-            camera
-        }))
+        Ok(prepared.camera(&wanted.settings, wanted.size_px)?)
     }
 
     /// The picture, gamma-encoded sRGB; `None` before the first, and where nothing is to be seen.
