@@ -78,7 +78,7 @@ pub fn unedited(light: &Light) -> LightEdit {
 
 /// Something in the scene glows by itself, as far as the settings let it.
 pub fn emits(prepared: &Prepared, lighting: &Lighting) -> bool {
-    lighting.emission > 0.0 && prepared.caches.iter().any(|cache| !cache.emission.is_empty())
+    lighting.emission > 0.0 && prepared.brightest_emission > 0.0
 }
 
 /// Whether our own sun is among the lights. `emits`: something in the scene does.

@@ -5,6 +5,7 @@ mod cone_tracing;
 mod light_edit;
 mod light_names;
 pub mod lighting;
+mod listed_names;
 mod look;
 mod node_names;
 mod visibility;

@@ -2,33 +2,10 @@
 // distance, range and spot cone by KHR_lights_punctual. In: the leaves, a light, a shadow map or the
 // octree's masks. A thread a leaf block.
 #import shared/threads.wgsl
-#import shared/occupied_nodes.wgsl
-#import shared/leaf_mask.wgsl
-#import shared/leaf_slot.wgsl
-#import shared/transmittance.wgsl
 #import shared/packing.wgsl
-#import shared/ray_walk.wgsl
-#import shared/empty_space.wgsl
+#import shared/light.wgsl
+#import shared/light_through.wgsl
 #import shared/shadow_map.wgsl
-
-struct LightParams {
-    // Cells from the grid's corner.
-    position: vec3<f32>,
-    // LIGHT_*.
-    kind: u32,
-    // The way it shines, unit length.
-    direction: vec3<f32>,
-    // Beyond it there is no light; 0: no such place. Cells.
-    range_cells: f32,
-    // Lux; for point and spot lights candela over the squared span, so that distances are cells.
-    strength: vec3<f32>,
-    // How far above its surface a leaf looks for what hides the light.
-    offset_cells: f32,
-    // Spot: attenuation is (cosine · scale + offset)², clamped.
-    angle_scale: f32,
-    angle_offset: f32,
-    pad: vec2<u32>,
-}
 
 @group(0) @binding(0) var<uniform> octree: OctreeParams;
 @group(0) @binding(1) var<uniform> light: LightParams;
@@ -48,65 +25,6 @@ override WORKGROUP_SIZE: u32 = 64u;
 // SHADOWS_*.
 override SHADOWS: u32 = 0u;
 
-fn leaf_occupancy(key: u32) -> f32 {
-    return f32(leaves[3u * leaf_slot(key)]) / f32(FULL_WEIGHT);
-}
-
-// Share of the light that comes through the leaves between `from` and `end` cells along a direction:
-// 1 − α a cell of length.
-fn light_through(origin: vec3<f32>, direction: vec3<f32>, end: f32) -> f32 {
-    let cells = grid_cells();
-    let ray = ray_of(origin, direction);
-    var walk = enter_lattice(ray, cells);
-    var through = 1.0;
-    var hint = 0u;
-    for (var n = 0; n <= 3 * cells && walk.inside && walk.t < end; n += 1) {
-        let key = morton_key(vec3<u32>(walk.cell));
-        let level = empty_level(octree.depth, key, hint);
-        hint = min(level, octree.depth);
-        let shift = octree.depth - hint;
-        let low = (walk.cell >> vec3<u32>(shift)) << vec3<u32>(shift);
-        let exit = leave_box(ray, low, 1i << shift);
-        let length = min(exit.t, end) - walk.t;
-        if level > octree.depth && length > 0.0 {
-            through *= transmittance(leaf_occupancy(key), length);
-            if through < LEAST_LIGHT {
-                return 0.0;
-            }
-        }
-        walk = walk_on(walk, ray, low, 1i << shift, exit, cells);
-    }
-    return through;
-}
-
-struct Arrival {
-    // Without cosine and visibility.
-    irradiance: vec3<f32>,
-    // Unit, to the light; how far, cells.
-    direction: vec3<f32>,
-    distance: f32,
-}
-
-fn arrival(p: vec3<f32>) -> Arrival {
-    if light.kind == LIGHT_DIRECTIONAL {
-        return Arrival(light.strength, -light.direction, NEVER);
-    }
-    let to_light = light.position - p;
-    // A leaf is a cell wide: nearer than half a cell is as near as it gets.
-    let distance = max(length(to_light), LEAST_DISTANCE_CELLS);
-    let direction = to_light / distance;
-    var falloff = 1.0 / (distance * distance);
-    if light.range_cells > 0.0 {
-        let part = distance / light.range_cells;
-        falloff *= clamp(1.0 - part * part * part * part, 0.0, 1.0);
-    }
-    if light.kind == LIGHT_SPOT {
-        let inside = clamp(dot(light.direction, -direction) * light.angle_scale + light.angle_offset, 0.0, 1.0);
-        falloff *= inside * inside;
-    }
-    return Arrival(light.strength * falloff, direction, distance);
-}
-
 // Cosine at a leaf whose mean normal has length r: the part that agrees, r, faces one way; the rest
 // faces every way, and an even spread of normals sees a quarter of a light. Cloth whose normals cancel
 // is lit from both sides so.
@@ -124,9 +42,7 @@ fn visibility(centre: vec3<f32>, unit: vec3<f32>, r: f32, to: Arrival) -> f32 {
     if SHADOWS == SHADOWS_MAP {
         return lit_share(start);
     }
-    let end = select(distance(light.position, start), NEVER, light.kind == LIGHT_DIRECTIONAL);
-    let direction = select(normalize(light.position - start + 1e-6 * unit), to.direction, light.kind == LIGHT_DIRECTIONAL);
-    return light_through(start, direction, end);
+    return light_from(start, unit);
 }
 
 fn leaf_irradiance(centre: vec3<f32>, packed_normal: u32) -> vec3<f32> {
@@ -134,7 +50,8 @@ fn leaf_irradiance(centre: vec3<f32>, packed_normal: u32) -> vec3<f32> {
     let square = dot(mean, mean);
     let r = select(min(sqrt(square), 1.0), 1.0, abs(square - 1.0) < PACKED_UNIT_SLACK);
     let unit = mean * inverseSqrt(max(square, 1e-12));
-    let to = arrival(centre);
+    // A leaf is a cell wide: nearer than half a cell is as near as it gets.
+    let to = arrival(centre, LEAST_DISTANCE_CELLS);
     let arriving = to.irradiance * facing(unit, r, to.direction);
     if all(arriving <= vec3<f32>(0.0)) {
         return vec3<f32>(0.0);

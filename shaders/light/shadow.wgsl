@@ -1,7 +1,7 @@
 // A shadow map: distances of the posed triangles from a light, in cells along the map's axis. In:
 // vertices by number, a matrix an object or joint (grid_from_mesh). Out: one layer. Entry points `rigid`
 // and `skinned` as for pictures; MASK casts by its cutoff, BLEND by a share of the texels.
-#import shared/posed_mesh.wgsl
+#import shared/posed_vertex.wgsl
 #import shared/shadow_frame.wgsl
 
 @group(0) @binding(0) var<uniform> frame: ShadowFrame;
@@ -21,8 +21,9 @@ struct Vertex {
 }
 
 fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
-    let p = vec4<f32>(moved_position(v, m), 1.0);
-    return Vertex(frame.clip_from_grid * p, dot(frame.distance, p), v.tex_coord, unpack4x8unorm(v.color).a);
+    let p = vec4<f32>(moved_position(v.position, m), 1.0);
+    let uv = slot_uv(draw.base_color_slot, v.tex_coords);
+    return Vertex(frame.clip_from_grid * p, dot(frame.distance, p), uv, unpack4x8unorm(v.color).a);
 }
 
 @fragment

@@ -1,16 +1,18 @@
 // Posed triangles: vertices by number, the matrices that move them, and what of a surface is there. A
-// shader declares `draw`, `indices`, `vertices`, `vertex_joints` and `matrices`, and says what becomes of
-// a vertex: `Vertex`, and `placed(v, m)`. Entry points `rigid` and `skinned` differ in what moves it.
+// shader declares `draw`, `indices`, `vertices`, `vertex_joints` and `matrices`.
 #import constants
 
 struct MeshVertex {
     position: vec3<f32>,
     // Packed.
     normal: u32,
-    tex_coord: vec2<f32>,
+    // TEXCOORD_0 and TEXCOORD_1.
+    tex_coords: vec4<f32>,
     // Linear, 8 bits each.
     color: u32,
-    pad: u32,
+    // Packed, and LEFT_HANDED.
+    tangent: u32,
+    pad: vec2<u32>,
 }
 
 struct VertexJoints {
@@ -24,6 +26,15 @@ struct MeshMatrix {
     rows: array<vec4<f32>, 3>,
 }
 
+// Where a material's texture is read: u and v are dot products with (tex_coord, 1).
+struct TextureSlot {
+    u: vec3<f32>,
+    // 0 or 1: which TEXCOORD_n.
+    tex_coord: u32,
+    v: vec3<f32>,
+    is_filled: u32,
+}
+
 struct DrawParams {
     base_color: vec4<f32>,
     first_index: u32,
@@ -35,7 +46,21 @@ struct DrawParams {
     // Less alpha than this is not there, under ALPHA_MASK.
     cutoff: f32,
     unlit: u32,
-    pad: u32,
+    has_tangents: u32,
+    emissive: vec3<f32>,
+    normal_scale: f32,
+    roughness: f32,
+    metallic: f32,
+    pad: vec2<u32>,
+    base_color_slot: TextureSlot,
+    metallic_roughness_slot: TextureSlot,
+    normal_slot: TextureSlot,
+    emissive_slot: TextureSlot,
+}
+
+fn slot_uv(slot: TextureSlot, tex_coords: vec4<f32>) -> vec2<f32> {
+    let at = vec3<f32>(select(tex_coords.xy, tex_coords.zw, slot.tex_coord == 1u), 1.0);
+    return vec2<f32>(dot(slot.u, at), dot(slot.v, at));
 }
 
 // sign(det)·cofactor: right for any scale, mirrored or not.
@@ -44,12 +69,20 @@ fn moved_normal(n: vec3<f32>, m: MeshMatrix) -> vec3<f32> {
     let c1 = cross(m.rows[2].xyz, m.rows[0].xyz);
     let c2 = cross(m.rows[0].xyz, m.rows[1].xyz);
     let moved = vec3<f32>(dot(c0, n), dot(c1, n), dot(c2, n));
-    return select(moved, -moved, dot(m.rows[0].xyz, c0) < 0.0);
+    return select(moved, -moved, is_mirrored(m));
 }
 
-fn moved_position(v: MeshVertex, m: MeshMatrix) -> vec3<f32> {
-    let p = vec4<f32>(v.position, 1.0);
+fn moved_position(position: vec3<f32>, m: MeshMatrix) -> vec3<f32> {
+    let p = vec4<f32>(position, 1.0);
     return vec3<f32>(dot(m.rows[0], p), dot(m.rows[1], p), dot(m.rows[2], p));
+}
+
+fn moved_direction(d: vec3<f32>, m: MeshMatrix) -> vec3<f32> {
+    return vec3<f32>(dot(m.rows[0].xyz, d), dot(m.rows[1].xyz, d), dot(m.rows[2].xyz, d));
+}
+
+fn is_mirrored(m: MeshMatrix) -> bool {
+    return dot(m.rows[0].xyz, cross(m.rows[1].xyz, m.rows[2].xyz)) < 0.0;
 }
 
 // Which vertex corner `number` of the drawn triangles is.
@@ -73,17 +106,6 @@ fn skinned_matrix(vertex: u32) -> MeshMatrix {
         }
     }
     return MeshMatrix(array(sum[0] / total, sum[1] / total, sum[2] / total));
-}
-
-@vertex
-fn rigid(@builtin(vertex_index) number: u32) -> Vertex {
-    return placed(vertices[vertex_of(number)], matrices[draw.first_matrix]);
-}
-
-@vertex
-fn skinned(@builtin(vertex_index) number: u32) -> Vertex {
-    let vertex = vertex_of(number);
-    return placed(vertices[vertex], skinned_matrix(vertex));
 }
 
 // 0 … 1 in an order that spreads: a share of pixels stands for a share of coverage.

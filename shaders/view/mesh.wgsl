@@ -3,7 +3,7 @@
 // vertex moves; the second exists only where a scene has skins.
 #import shared/packing.wgsl
 #import shared/view.wgsl
-#import shared/posed_mesh.wgsl
+#import shared/posed_vertex.wgsl
 
 struct MeshParams {
     // From camera space in cells: x right, y up, z backward. Depth is reversed.
@@ -36,11 +36,12 @@ struct Pixel {
 }
 
 fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
-    let position = moved_position(v, m);
+    let position = moved_position(v.position, m);
     let normal = moved_normal(unpack_normal(v.normal), m);
     // Scaled once more, so that no cofactor of a small object vanishes in interpolation.
     let unit = normal * inverseSqrt(max(dot(normal, normal), 1e-37));
-    return Vertex(mesh.clip_from_camera * vec4<f32>(position, 1.0), position, unit, v.tex_coord, unpack4x8unorm(v.color));
+    let uv = slot_uv(draw.base_color_slot, v.tex_coords);
+    return Vertex(mesh.clip_from_camera * vec4<f32>(position, 1.0), position, unit, uv, unpack4x8unorm(v.color));
 }
 
 @fragment

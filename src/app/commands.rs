@@ -6,7 +6,7 @@ use super::App;
 use super::inspector::Pin;
 use super::playback;
 use crate::scene::OrbitCamera;
-use crate::settings::{Discretization, Lighting, Look, MotionSettings, Visibility};
+use crate::settings::{ConeTracing, Discretization, Lighting, Look, MotionSettings, Visibility};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
@@ -20,6 +20,8 @@ pub enum Command {
     Discretize(Discretization),
     Look(Look),
     Light(Lighting),
+    /// Other cones from surfaces.
+    TraceCones(ConeTracing),
     /// Another node of the octree is looked at.
     Pin(Pin),
     /// Another clip or turn, or a scrub of the timeline.
@@ -63,6 +65,7 @@ impl App {
             Command::Look(look) => self.settings.look = look,
             Command::Pin(pin) => self.desk.inspector.apply(pin),
             Command::Light(lighting) => self.settings.lighting = lighting,
+            Command::TraceCones(cones) => self.settings.cone_tracing = cones,
             Command::Camera(camera) => {
                 self.settings.look.camera = Some(camera);
                 self.moved_at_secs = Some(clock_secs);

@@ -5,6 +5,7 @@ use std::time::Instant;
 use egui::{Panel, ScrollArea, TextEdit, Ui};
 
 use super::commands::Command;
+use super::panels::cones::ConesPanel;
 use super::panels::light::LightPanel;
 use super::panels::top_bar::TopBar;
 use super::panels::tree::TreePanel;
@@ -118,6 +119,7 @@ impl App {
             .extend(section(ui, "Filter", true, |ui| panels::filter::ui(ui, settings, self.stage.accuracy.as_ref())));
         commands.extend(section(ui, "Light", false, |ui| self.light_ui(ui)));
         commands.extend(section(ui, "View", true, |ui| self.view_ui(ui)));
+        commands.extend(section(ui, "Cone tracing", false, |ui| self.cones_ui(ui)));
         commands
     }
 
@@ -136,6 +138,17 @@ impl App {
             ui.add(TextEdit::singleline(&mut self.screenshots.folder).desired_width(f32::INFINITY))
         });
         commands
+    }
+
+    fn cones_ui(&self, ui: &mut Ui) -> Vec<Command> {
+        let settings = &self.settings;
+        let extent = self.prepared().map_or(0.0, |prepared| f64::from(prepared.grid.cells()) * prepared.grid.span);
+        let panel = ConesPanel {
+            cones: &settings.cone_tracing,
+            look: &settings.look,
+            occlusion_distance: extent * panels::cones::OCCLUSION_GRID_PART,
+        };
+        panels::cones::ui(ui, panel)
     }
 
     /// Names of the lights that have a shadow map, as far as they are asked for.

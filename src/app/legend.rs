@@ -5,9 +5,10 @@ use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2
 use super::scale_ticks::{Tick, ticks};
 use super::theme;
 use crate::color::srgb_byte;
-use crate::settings::{ColorBy, Look, Slice, SliceValue, View};
+use crate::settings::{ColorBy, Look, Slice, SliceValue, SurfaceView, ToneCurve, View};
 use crate::stages::view::GHOST_COLORS;
 use crate::stages::view::palette::legend_value;
+use crate::stages::view::show_surfaces::tone_mapped;
 
 const SIZE: egui::Vec2 = vec2(150.0, 10.0);
 /// Room for numbers below.
@@ -32,7 +33,9 @@ pub fn paint(painter: &Painter, view: Rect, look: &Look, values: Values) {
             let color = |part| legend_value(ColorBy::Occupancy, part);
             scale(painter, corner, "distance from the light, scene units", &ticks, color);
         }
-        (View::Voxels, color @ (ColorBy::Radiance | ColorBy::Irradiance)) => exposed(painter, corner, color, values),
+        (View::Voxels, ColorBy::Radiance) => toned(painter, corner, RADIANCE, values, ToneCurve::Linear),
+        (View::Voxels, ColorBy::Irradiance) => toned(painter, corner, IRRADIANCE, values, ToneCurve::Linear),
+        (View::Surfaces, _) => surfaces(painter, corner, look, values),
         (View::Ghost, _) => swatches(
             painter,
             corner,
@@ -42,15 +45,7 @@ pub fn paint(painter: &Painter, view: Rect, look: &Look, values: Values) {
                 (shown(GHOST_COLORS.both), "both"),
             ],
         ),
-        (_, ColorBy::Normal) => swatches(
-            painter,
-            corner,
-            &[
-                (Color32::from_rgb(255, 128, 128), "+x"),
-                (Color32::from_rgb(128, 255, 128), "+y"),
-                (Color32::from_rgb(128, 128, 255), "+z"),
-            ],
-        ),
+        (_, ColorBy::Normal) => axes(painter, corner),
         (View::Voxels, ColorBy::Occupancy) => ramp(painter, corner, ColorBy::Occupancy, "occupancy", ["0", "1"]),
         (View::Voxels, ColorBy::Level) => ramp(painter, corner, ColorBy::Level, "octree level", ["root", "leaves"]),
         _ => {}
@@ -63,6 +58,11 @@ fn swatches(painter: &Painter, corner: Pos2, entries: &[(Color32, &str)]) {
         painter.rect_filled(Rect::from_min_size(top, vec2(10.0, 10.0)), 2.0, *color);
         text(painter, top + vec2(16.0, 5.0), Align2::LEFT_CENTER, name);
     }
+}
+
+fn axes(painter: &Painter, corner: Pos2) {
+    let colors = [(255, 128, 128), (128, 255, 128), (128, 128, 255)].map(|(r, g, b)| Color32::from_rgb(r, g, b));
+    swatches(painter, corner, &[(colors[0], "+x"), (colors[1], "+y"), (colors[2], "+z")]);
 }
 
 /// The colour map as the picture uses it, with its ends named.
@@ -112,12 +112,47 @@ fn scale(painter: &Painter, corner: Pos2, name: &str, ticks: &[Tick], color: imp
     text(painter, rect.left_bottom() + vec2(0.0, 18.0), Align2::LEFT_TOP, name);
 }
 
-/// Light as voxels show it: what white stands for.
-fn exposed(painter: &Painter, corner: Pos2, color: ColorBy, values: Values) {
-    let (name, unit) = if color == ColorBy::Radiance { ("radiance", "nits") } else { ("irradiance", "lux") };
-    let name = format!("{name}, {unit}; exposure {:+.1} stops", values.exposure.log2());
-    let ticks = ticks([0.0, 1.0 / values.exposure], false);
-    scale(painter, corner, &name, &ticks, |part| [srgb_byte(part as f32); 3]);
+const RADIANCE: &str = "radiance, nits";
+const IRRADIANCE: &str = "irradiance, lux";
+
+/// Light up to what is white under this curve.
+fn toned(painter: &Painter, corner: Pos2, name: &str, values: Values, curve: ToneCurve) {
+    let white = white(curve);
+    let name = format!("{name}; exposure {:+.1} stops", values.exposure.log2());
+    let ticks = ticks([0.0, white / values.exposure], false);
+    scale(painter, corner, &name, &ticks, |part| [srgb_byte(tone_mapped(curve, part * white) as f32); 3]);
+}
+
+/// Exposed light that a curve makes white, or, where it never does, nearly so.
+fn white(curve: ToneCurve) -> f64 {
+    match curve {
+        ToneCurve::Linear => 1.0,
+        ToneCurve::Reinhard | ToneCurve::Aces => 8.0,
+    }
+}
+
+fn surfaces(painter: &Painter, corner: Pos2, look: &Look, values: Values) {
+    let light = |name: &str| toned(painter, corner, name, values, look.tone_curve);
+    let share = |name: &str| {
+        let color = |part: f64| [srgb_byte(part as f32); 3];
+        scale(painter, corner, name, &ticks([0.0, 1.0], false), color);
+    };
+    match look.surface {
+        SurfaceView::Final => light(RADIANCE),
+        SurfaceView::Direct => light("direct radiance, nits"),
+        SurfaceView::Diffuse => light("indirect diffuse radiance, nits"),
+        SurfaceView::Specular => light("indirect specular radiance, nits"),
+        SurfaceView::Irradiance => light("indirect irradiance, lux"),
+        SurfaceView::Ao => share("share of the hemisphere without anything near"),
+        SurfaceView::Roughness => share("roughness"),
+        SurfaceView::Normal => axes(painter, corner),
+        SurfaceView::Depth => {
+            let ticks = values.range.map(|range| ticks(range, false)).unwrap_or_default();
+            let color = |part| legend_value(ColorBy::Occupancy, 1.0 - part);
+            scale(painter, corner, "distance from the eye, scene units", &ticks, color);
+        }
+        SurfaceView::Albedo => {}
+    }
 }
 
 fn slice(painter: &Painter, corner: Pos2, slice: &Slice, values: Values) {

@@ -1,7 +1,7 @@
 //! Options that say what a picture shows, and how.
 
 use clap::Args;
-use octolume::settings::{AlphaRule, ColorBy, Look, Lookup, Sampling, SliceValue, View};
+use octolume::settings::{AlphaRule, ColorBy, Look, Lookup, Sampling, SliceValue, ToneCurve, View};
 
 use super::options::set;
 use super::values::{self, Exposure, SliceChoice, SliceScale, ViewChoice};
@@ -9,8 +9,13 @@ use super::values::{self, Exposure, SliceChoice, SliceScale, ViewChoice};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "What is shown")]
 pub struct LookOptions {
-    /// What to show; `:N` the octree's level N, or the shadow map of light N, both from 0
-    #[arg(long, value_name = "voxels|mesh|ghost|level:N|radiance[:N]|irradiance[:N]|slice|shadow-map[:N]")]
+    /// What to show; `:N` the octree's level N, or the shadow map of light N, both from 0. Surfaces lit by
+    /// lights and cones, or a part of that: final, direct, diffuse, specular, ao, albedo, normal, depth,
+    /// roughness, surfaces:irradiance
+    #[arg(
+        long,
+        value_name = "voxels|mesh|ghost|level:N|radiance[:N]|irradiance[:N]|slice|shadow-map[:N]|surfaces[:PART]"
+    )]
     view: Option<ViewChoice>,
     /// What colours mean
     #[arg(
@@ -31,6 +36,9 @@ pub struct LookOptions {
     /// Light is multiplied by 2 to this before it is shown: -40 to 40; otherwise what its mean asks for
     #[arg(long, value_name = "STOPS|auto", allow_hyphen_values = true)]
     exposure: Option<Exposure>,
+    /// How exposed light becomes the brightness of a screen; otherwise aces
+    #[arg(long, value_name = "linear|reinhard|aces", value_parser = values::name::<ToneCurve>)]
+    curve: Option<ToneCurve>,
     /// Shows the slice across an axis, at a height of 0 to 1 of the grid; otherwise y:0.5
     #[arg(long, value_name = "x|y|z:HEIGHT", allow_hyphen_values = true)]
     slice: Option<SliceChoice>,
@@ -58,6 +66,7 @@ impl LookOptions {
             (look.view, look.level) = (choice.view, choice.level);
             set(&mut look.color, choice.color);
             set(&mut look.shadow_map, choice.shadow_map);
+            set(&mut look.surface, choice.surface);
         } else if self.slice.is_some() {
             look.view = View::Slice;
         }
@@ -66,6 +75,7 @@ impl LookOptions {
         look.voxel_edges |= self.edges;
         look.shaded &= !self.no_shading;
         set(&mut look.exposure_stops, self.exposure.map(|exposure| exposure.0));
+        set(&mut look.tone_curve, self.curve);
         if let Some(SliceChoice { axis, height }) = self.slice {
             (look.slice.axis, look.slice.height) = (axis, height);
         }

@@ -7,6 +7,8 @@
 mod accuracy;
 mod bench;
 mod cache;
+mod cone_options;
+mod cone_values;
 mod info;
 mod light_facts;
 mod light_values;

@@ -11,6 +11,7 @@ use octolume::scene::OrbitCamera;
 use octolume::scene::load::{OpenOptions, SceneChoice};
 use octolume::settings::{Discretization, Filter, NodeNames, Settings, VoxelAnchor};
 
+use super::cone_options::ConeOptions;
 use super::lighting_options::LightingOptions;
 use super::{Usage, values};
 
@@ -69,6 +70,8 @@ pub struct Common {
     opening: Opening,
     #[command(flatten)]
     lighting: LightingOptions,
+    #[command(flatten)]
+    cones: ConeOptions,
 }
 
 /// What of a file is opened, and at what price.
@@ -104,6 +107,7 @@ impl Common {
             settings.look.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
         }
         self.lighting.apply(&mut settings.lighting);
+        self.cones.apply(&mut settings.cone_tracing);
         Ok(settings)
     }
 

@@ -15,13 +15,14 @@ use super::values::{self, Frames, Size};
 /// Size of a picture where neither option nor settings picture tells.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
-/// Draws a scene into a .png file, which carries its settings
+/// Draws a scene into a .png file, which carries its settings, or an .exr file of linear light
 #[derive(Debug, Args)]
 pub struct Render {
     /// A .gltf or .glb file, or the name of a built-in scene
     scene: PathBuf,
-    /// The .png file to write; with --frames, -0000 and so on goes before its extension
-    #[arg(short, long, value_name = "OUT.png")]
+    /// The .png file to write, or with a view of surfaces .exr: linear, unclamped; with --frames, -0000 and so
+    /// on goes before its extension
+    #[arg(short, long, value_name = "OUT.png|OUT.exr")]
     output: PathBuf,
     /// Pixels; 1280x720, or as large as the picture given by --settings
     #[arg(long, value_name = "WxH")]
@@ -57,6 +58,10 @@ impl Render {
         self.moment.apply(&mut settings);
         self.look.apply(&mut settings.look);
         settings.check().map_err(Usage)?;
+        if is_exr(&self.output) && settings.look.view != View::Surfaces {
+            let cause = "an .exr file holds linear light, which only views of surfaces give, such as --view final";
+            return Err(Usage(cause.to_owned()).into());
+        }
         Ok(settings)
     }
 
@@ -83,7 +88,17 @@ fn draw(session: &mut Session, settings: &Settings, size_px: [u32; 2], file: &Pa
         session.take_exact(settings)?;
     }
     session.run(settings, size_px)?;
+    if is_exr(file) {
+        // Where nothing is to be seen, all of it is black.
+        let nothing = || vec![[0.0; 4]; size_px[0] as usize * size_px[1] as usize];
+        let light = session.engine.read_surfaces()?.unwrap_or_else(nothing);
+        return Ok(export::write_exr(file, size_px, &light)?);
+    }
     Ok(export::write_png(file, &session.engine.read_image()?, settings)?)
+}
+
+fn is_exr(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"))
 }
 
 /// `walk.png` → `walk-0007.png`.

@@ -7,6 +7,7 @@ use std::str::FromStr;
 use serde::de::value::Error as NameError;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
+pub use super::cone_values::{IndirectSize, OcclusionDistance, Switch};
 pub use super::view_values::{Exposure, SliceChoice, SliceScale, ViewChoice};
 
 const FRAMES_PER_SEC: RangeInclusive<f64> = 0.001..=1000.0;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use octolume::settings::{ColorBy, SliceAxis, View};
+use octolume::settings::{ColorBy, SliceAxis, SurfaceView, View};
 use serde::Deserialize;
 
 use super::values::{name, number};
@@ -17,6 +17,8 @@ pub struct ViewChoice {
     pub level: Option<u32>,
     /// `None`: as it is set.
     pub shadow_map: Option<usize>,
+    /// `None`: as it is set.
+    pub surface: Option<SurfaceView>,
 }
 
 impl FromStr for ViewChoice {
@@ -35,11 +37,26 @@ impl FromStr for ViewChoice {
                 let light = number_of(light).map_err(|()| "a light is a number, 0 is the first".to_owned())?;
                 Ok(Self { view: View::ShadowMap, shadow_map: Some(light), ..Self::default() })
             }
-            _ => {
-                let others = "`level:N`, `radiance`, `radiance:N`, `irradiance`, `irradiance:N`, `shadow-map:N`";
-                let view = name(text).map_err(|error| format!("{error}, or one of {others}"))?;
-                Ok(Self { view, ..Self::default() })
+            ("surfaces", Some(part)) => {
+                let part = name(part).map_err(|error| error.to_string())?;
+                Ok(Self { view: View::Surfaces, surface: Some(part), ..Self::default() })
             }
+            _ => named(text),
+        }
+    }
+}
+
+/// A view by its name, or by that of a part of the lit surfaces that no other view is called by.
+fn named(text: &str) -> Result<ViewChoice, String> {
+    let others = "`level:N`, `radiance`, `radiance:N`, `irradiance`, `irradiance:N`, `shadow-map:N`, `surfaces:PART`, or \
+                  a part: `final`, `direct`, `diffuse`, `specular`, `ao`, `albedo`, `normal`, `depth`, `roughness` \
+                  (`surfaces:irradiance`)";
+    let choice = ViewChoice::default();
+    match name(text) {
+        Ok(part) => Ok(ViewChoice { view: View::Surfaces, surface: Some(part), ..choice }),
+        Err(_) => {
+            let view = name(text).map_err(|error| format!("{error}, or one of {others}"))?;
+            Ok(ViewChoice { view, ..choice })
         }
     }
 }
@@ -104,11 +121,19 @@ mod tests {
             ("radiance", ViewChoice { color: Some(ColorBy::Radiance), ..voxels }),
             ("irradiance:2", ViewChoice { color: Some(ColorBy::Irradiance), level: Some(2), ..voxels }),
             ("shadow-map", ViewChoice { view: View::ShadowMap, ..voxels }),
+            ("surfaces", ViewChoice { view: View::Surfaces, ..voxels }),
+            ("final", ViewChoice { view: View::Surfaces, surface: Some(SurfaceView::Final), ..voxels }),
+            (
+                "surfaces:irradiance",
+                ViewChoice { view: View::Surfaces, surface: Some(SurfaceView::Irradiance), ..voxels },
+            ),
             ("shadow-map:1", ViewChoice { view: View::ShadowMap, shadow_map: Some(1), ..voxels }),
         ] {
             assert_eq!(text.parse(), Ok(choice), "{text}");
         }
-        for bad in ["glass", "level", "level:leaf", "level:-1", "radiance:", "slice:2", "shadow-map:sun", ""] {
+        for bad in
+            ["glass", "level", "level:leaf", "level:-1", "radiance:", "slice:2", "shadow-map:sun", "surfaces:glass", ""]
+        {
             assert!(bad.parse::<ViewChoice>().is_err(), "{bad}");
         }
         assert!(

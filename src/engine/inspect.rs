@@ -88,7 +88,7 @@ impl Engine {
             return Ok(None);
         }
         let Some(distance) = picture.read_distance(&self.gpu, pixel)? else { return Ok(None) };
-        let rays = PixelRays::new(&self.camera(wanted)?, &prepared.grid, wanted.size_px);
+        let rays = PixelRays::new(&wanted.camera, &prepared.grid, wanted.size_px);
         let level = shown_level(&wanted.settings.look, prepared.grid.depth);
         Ok(cell_at(&rays, pixel, distance.into(), (level, prepared.grid.depth)))
     }

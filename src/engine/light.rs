@@ -26,7 +26,7 @@ pub struct LightOnGpu {
     pub maps: Vec<ShadowMap>,
     pub matrices: Slot,
     /// Hides nothing.
-    no_map: Option<ShadowMap>,
+    pub no_map: Option<ShadowMap>,
     /// Light times opacity, and opacity, of the whole scene.
     pub radiance_root: [f32; 4],
     pub irradiance_root: [f32; 4],
@@ -62,6 +62,24 @@ impl LightOnGpu {
 pub struct LitBy {
     pub lights: Vec<PosedLight>,
     pub lighting: Lighting,
+    /// False: of the store, opacity alone.
+    pub radiance: bool,
+}
+
+impl LitBy {
+    pub fn new(wanted: &Wanted) -> Self {
+        let radiance = wanted.reads_radiance();
+        Self { lights: wanted.lights.clone(), lighting: wanted.settings.lighting.clone(), radiance }
+    }
+
+    pub fn is_of(&self, wanted: &Wanted) -> bool {
+        self.lights == wanted.lights && self.lighting == wanted.settings.lighting
+    }
+
+    /// What is stored is enough for what is wanted.
+    pub fn serves(&self, wanted: &Wanted) -> bool {
+        self.is_of(wanted) && (self.radiance || !wanted.reads_radiance())
+    }
 }
 
 impl Engine {
@@ -94,7 +112,8 @@ impl Engine {
         let gpu = &self.gpu;
         let direct = self.light.buffers.direct.ensure(gpu, "direct irradiance", bytes)?;
         frame.clear(&direct);
-        for (number, light) in wanted.lights.iter().enumerate() {
+        let lights = if wanted.reads_radiance() { &*wanted.lights } else { &[] };
+        for (number, light) in lights.iter().enumerate() {
             let is_mapped = lighting.shadows == Shadows::Map;
             let map = match self.light.maps.get(number).filter(|_| is_mapped) {
                 Some(map) => map,
@@ -163,7 +182,7 @@ impl Engine {
     fn injected(&self, wanted: &Wanted, bounced: bool) -> Result<InjectedBuffers, EngineError> {
         let b = &self.light.buffers;
         let emission_nits = self.emission_nits(wanted)?;
-        let emits = emission_nits > 0.0 && wanted.facts.emissive_voxels > 0;
+        let emits = emission_nits > 0.0 && wanted.facts.emissive_voxels > 0 && wanted.reads_radiance();
         Ok(InjectedBuffers {
             direct: b.direct.made("direct irradiance")?,
             gathered: if bounced { Some(b.gathered.made("gathered irradiance")?) } else { None },
@@ -192,7 +211,7 @@ impl InjectedBuffers {
     }
 }
 
-fn no_map(gpu: &Gpu, kept: &mut Option<ShadowMap>) -> Result<ShadowMap, GpuError> {
+pub(super) fn no_map(gpu: &Gpu, kept: &mut Option<ShadowMap>) -> Result<ShadowMap, GpuError> {
     match kept {
         Some(map) => Ok(map.clone()),
         None => Ok(kept.insert(ShadowMap::new(gpu, ShadowParams::default())?).clone()),

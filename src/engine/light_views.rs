@@ -3,7 +3,7 @@
 use super::steps::Stored;
 use super::{Engine, EngineError, Wanted, missing};
 use crate::gpu::Recorder;
-use crate::settings::{ColorBy, Settings, SliceValue, View};
+use crate::settings::{ColorBy, Settings, SliceValue, SurfaceView, View};
 use crate::stages::sample::SampledOctree;
 use crate::stages::view::camera::PixelRays;
 use crate::stages::view::{Palette, Picture, ViewParams};
@@ -11,7 +11,7 @@ use crate::stages::view::{march_light, show_shadow, slice};
 
 /// The mean light of a scene is shown as this without an exposure of one's own: mean voxels are mostly
 /// in shadow, so that what is lit comes out bright.
-const MEAN_SHOWN_AS: f64 = 0.18;
+pub(super) const MEAN_SHOWN_AS: f64 = 0.18;
 
 type Drawn<'a> = (&'a PixelRays, &'a Picture);
 
@@ -19,6 +19,9 @@ impl Engine {
     /// What light is multiplied by before it is shown; 1 where there is none.
     pub fn exposure(&self) -> f64 {
         let Some(wanted) = &self.wanted else { return 1.0 };
+        if wanted.settings.look.view == View::Surfaces {
+            return self.surface_exposure(wanted);
+        }
         let mean = self.light.mean(stored(&wanted.settings));
         match wanted.settings.look.exposure_stops {
             Some(stops) => stops.exp2(),
@@ -27,7 +30,7 @@ impl Engine {
         }
     }
 
-    /// Ends of the colour scale of a slice (nits, lux or 1) or a shadow map (scene units); `None` where
+    /// Ends of the colour scale of a slice (nits, lux or 1), a shadow map or depths (scene units); `None` where
     /// another view is shown.
     pub fn value_range(&self) -> Option<[f64; 2]> {
         let wanted = self.wanted.as_ref()?;
@@ -38,6 +41,7 @@ impl Engine {
                 let span = self.prepared.as_ref()?.grid.span;
                 Some(self.shadow_range(wanted)?.map(|cells| cells * span))
             }
+            View::Surfaces if look.surface == SurfaceView::Depth => self.depth_range(wanted).ok(),
             View::Voxels | View::Mesh | View::Ghost | View::Surfaces => None,
         }
     }
@@ -97,11 +101,7 @@ impl Engine {
         let sampled = SampledOctree::new(&octree.params, &octree.buffers, &light, look.slice.lookup)?;
         let view = ViewParams::new(rays, look, octree.params.depth);
         let range = self.slice_range(&wanted.settings);
-        let palette = Palette::new(match look.slice.value {
-            SliceValue::Radiance => ColorBy::Radiance,
-            SliceValue::Irradiance => ColorBy::Irradiance,
-            SliceValue::Occupancy => ColorBy::Occupancy,
-        });
+        let palette = Palette::new(look.slice.value.color());
         slice::record(&self.gpu, frame, &sampled, (&look.slice, range), (&view, &palette), picture);
         Ok(())
     }

@@ -9,6 +9,7 @@
 //! playing animation always shows something.
 
 mod built_octree;
+mod cones;
 mod error;
 mod inspect;
 mod light;
@@ -24,6 +25,7 @@ mod sample;
 mod scene_on_gpu;
 mod shadows;
 mod steps;
+mod surface_steps;
 mod surfaces;
 mod wanted;
 
@@ -49,6 +51,7 @@ pub use read_voxels::WorldVoxels;
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 use run::{Comparison, FrameTimings, Running};
 use scene_on_gpu::SceneOnGpu;
+use surfaces::SurfacesOnGpu;
 use wanted::{Done, Wanted};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,6 +79,7 @@ pub struct Engine {
     comparison: Comparison,
     exact_masks: ExactMasks,
     light: LightOnGpu,
+    surfaces: SurfacesOnGpu,
     picture: Option<Picture>,
     mesh: Option<MeshScene>,
     mesh_matrices: Slot,
@@ -93,6 +97,7 @@ impl Engine {
         Self {
             exact_masks: ExactMasks::default(),
             light: LightOnGpu::default(),
+            surfaces: SurfacesOnGpu::default(),
             picture: None,
             mesh: None,
             mesh_matrices: Slot::default(),
@@ -131,6 +136,7 @@ impl Engine {
         self.exact_bits = None;
         self.exact_masks = ExactMasks::default();
         self.light = LightOnGpu::default();
+        self.surfaces = SurfacesOnGpu::default();
         self.mesh = None;
         self.comparison = Comparison::default();
         self.timings = FrameTimings::default();
@@ -167,7 +173,7 @@ impl Engine {
         let (scene, settings) = (&prepared.scene, &wanted.settings);
         // A request with nodes that are not there was refused.
         let shown = settings.visibility.shown_nodes(scene).unwrap_or_default();
-        let lost = lights::left_out(scene, &wanted.pose, &settings.lighting, &shown);
+        let lost = lights::left_out(scene, &wanted.placed.pose, &settings.lighting, &shown);
         objects.chain(lost).chain(wanted.missing_map()).collect()
     }
 
@@ -214,10 +220,19 @@ impl Engine {
 
     /// Forgets light, shadow maps and pointers alone.
     pub fn invalidate_light(&mut self) {
+        self.invalidate_surfaces();
         self.done.light = None;
         self.done.shadows = None;
         self.done.emission = false;
         self.done.links.clear();
+    }
+
+    /// Forgets the surface image and all that is made from it.
+    pub fn invalidate_surfaces(&mut self) {
+        self.done.surfaces = None;
+        self.done.direct = None;
+        self.done.diffuse = None;
+        self.done.specular = None;
     }
 
     /// Kernel times of the results that are there: the last build, and the last picture of it.

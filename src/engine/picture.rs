@@ -7,11 +7,10 @@ use super::{Engine, EngineError, Wanted, missing};
 use crate::color::srgb_byte;
 use crate::data::octree::{OctreeParams, Slot};
 use crate::gpu::{GpuError, GpuTexture, Recorder};
-use crate::scene::OrbitCamera;
-use crate::settings::{Hidden, View};
+use crate::settings::View;
 use crate::stages::build::COUNTERS;
 use crate::stages::build::reduce::{self, Masks};
-use crate::stages::mesh::{MeshScene, PosedMesh};
+use crate::stages::mesh::{MeshScene, PosedMesh, Textures};
 use crate::stages::view::camera::PixelRays;
 use crate::stages::view::ghost::{self, LeafSet};
 use crate::stages::view::march::{self, MarchedOctree};
@@ -51,7 +50,7 @@ impl Engine {
         let mut frame = Recorder::default();
         let picture = self.ensure_picture(wanted.size_px)?;
         let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
-        let rays = PixelRays::new(&self.camera(wanted)?, &grid, wanted.size_px);
+        let rays = PixelRays::new(&wanted.camera, &grid, wanted.size_px);
         let look = &wanted.settings.look;
         match look.view {
             View::Voxels if self.plan.shows_light() => {
@@ -73,31 +72,31 @@ impl Engine {
             View::Mesh => self.record_mesh(&mut frame, wanted, &picture)?,
             View::Slice => self.record_slice(&mut frame, wanted, (&rays, &picture))?,
             View::ShadowMap => self.record_shadow_map(&mut frame, wanted, (&rays, &picture))?,
-            View::Surfaces => self.record_surfaces(&mut frame, wanted, (&rays, &picture))?,
+            View::Surfaces => self.record_surfaces(&mut frame, wanted, &picture)?,
         }
         Ok(frame)
     }
 
     fn record_mesh(&mut self, frame: &mut Recorder, wanted: &Wanted, picture: &Picture) -> Result<(), EngineError> {
         let prepared = self.prepared.clone().ok_or(EngineError::NoScene)?;
-        let camera = self.camera(wanted)?;
-        let pose = prepared.pose(&wanted.settings.motion)?;
         let depth = self.mesh_depth(wanted.size_px)?;
         let mesh = self.mesh.as_ref().ok_or_else(|| missing("mesh vertices"))?;
-        let camera_from_world = mesh::camera_from_world(&camera, &prepared.grid);
-        let of_pose = (&pose, &wanted.hidden);
+        let camera_from_world = mesh::camera_from_world(&wanted.camera, &prepared.grid);
+        let of_pose = (&*wanted.placed.pose, &wanted.placed.hidden);
         let posed = PosedMesh::new(&self.gpu, mesh, &mut self.mesh_matrices, of_pose, &camera_from_world)?;
-        let seen = MeshView { camera: &camera, grid: &prepared.grid, look: &wanted.settings.look };
+        let seen = MeshView { camera: &wanted.camera, grid: &prepared.grid, look: &wanted.settings.look };
         mesh::record(&self.gpu, frame, &posed, seen, MeshTarget { picture, depth: &depth });
         Ok(())
     }
 
-    /// Uploads what the mesh view draws, for about `budget`; says whether all is there.
-    pub(super) fn upload_mesh(&mut self, hidden: &Hidden, budget: Duration) -> Result<bool, EngineError> {
+    /// Uploads what is drawn of the triangles, for about `budget`; says whether all is there.
+    pub(super) fn upload_mesh(&mut self, wanted: &Wanted, budget: Duration) -> Result<bool, EngineError> {
         let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
         let objects = || prepared.objects.iter().zip(0..).map(|(object, number)| (number, object.object.clone()));
         let mesh = self.mesh.get_or_insert_with(|| MeshScene::new(Arc::clone(&prepared.scene), objects().collect()));
-        Ok(mesh.upload(&self.gpu, hidden, budget)?)
+        let view = wanted.settings.look.view;
+        let textures = if view == View::Surfaces { Textures::All } else { Textures::BaseColor };
+        Ok(mesh.upload(&self.gpu, (&wanted.placed.hidden, textures), budget)?)
     }
 
     fn mesh_depth(&mut self, size_px: [u32; 2]) -> Result<GpuTexture, GpuError> {
@@ -128,11 +127,6 @@ impl Engine {
             return Ok(picture.clone());
         }
         Ok(self.picture.insert(Picture::new(&self.gpu, size_px)?).clone())
-    }
-
-    pub(super) fn camera(&self, wanted: &Wanted) -> Result<OrbitCamera, EngineError> {
-        let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
-        Ok(prepared.camera(&wanted.settings, wanted.size_px)?)
     }
 
     /// The picture, gamma-encoded sRGB; `None` before the first, and where nothing is to be seen.

@@ -69,6 +69,8 @@ impl Engine {
                 self.done.emission = false;
                 self.done.light = None;
                 self.done.irradiance = false;
+                self.done.diffuse = None;
+                self.done.specular = None;
                 self.done.view = None;
             }
             Which::Other => self.done.other = None,

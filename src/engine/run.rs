@@ -4,10 +4,12 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::light::LitBy;
 use super::steps::{Step, Stored, Which};
+use super::surface_steps::SurfaceTimings;
 use super::{Engine, EngineError, EngineState, Wanted, missing, other_filter};
 use crate::data::light::LIGHT_BYTES;
-use crate::gpu::{GpuBuffer, Job, JobState, KernelTiming, PendingRead};
+use crate::gpu::{GpuBuffer, Job, JobState, KernelTiming, PendingRead, Recorder};
 use crate::plan::FramePlan;
 use crate::settings::View;
 use crate::stages::compare::compare_sets;
@@ -21,9 +23,15 @@ pub struct Running {
     work: Option<Work>,
 }
 
-enum Work {
+pub(super) enum Work {
     Job(Box<Job>),
     Read(PendingRead),
+}
+
+impl Work {
+    pub fn job(recorder: Recorder) -> Self {
+        Self::Job(Box::new(Job::new(recorder)))
+    }
 }
 
 impl Running {
@@ -56,6 +64,7 @@ pub struct FrameTimings {
     shadows: Vec<KernelTiming>,
     lit: Vec<KernelTiming>,
     irradiance: Vec<KernelTiming>,
+    pub surfaces: SurfaceTimings,
     picture: Vec<KernelTiming>,
     compared: Vec<KernelTiming>,
 }
@@ -65,7 +74,8 @@ impl FrameTimings {
         let built = [&self.moved, &self.build, &self.numbered, &self.linked];
         let lit = [&self.emission, &self.shadows, &self.lit, &self.irradiance];
         let shown = [&self.picture, &self.compared];
-        built.into_iter().chain(lit).chain(shown).flatten().cloned().collect()
+        let before = built.into_iter().chain(lit).flatten();
+        before.chain(self.surfaces.all()).chain(shown.into_iter().flatten()).cloned().collect()
     }
 }
 
@@ -74,7 +84,7 @@ impl Engine {
     pub(super) fn run_slice(&mut self, budget: Duration) -> Result<EngineState, EngineError> {
         let Some(mut running) = self.running.take() else { return Ok(EngineState::Idle) };
         let Some(&step) = running.steps.front() else { return Ok(EngineState::Idle) };
-        if step == Step::UploadMesh && !self.upload_mesh(&running.wanted.hidden, budget)? {
+        if step == Step::UploadMesh && !self.upload_mesh(&running.wanted, budget)? {
             let state = running.state(0.0);
             self.running = Some(running);
             return Ok(state);
@@ -115,7 +125,7 @@ impl Engine {
     }
 
     fn start(&mut self, step: Step, running: &Running) -> Result<Option<Work>, EngineError> {
-        let job = |recorder| Ok(Some(Work::Job(Box::new(Job::new(recorder)))));
+        let job = |recorder| Ok(Some(Work::job(recorder)));
         match step {
             Step::UploadCaches => {
                 self.upload_caches()?;
@@ -144,8 +154,9 @@ impl Engine {
             Step::Irradiance => job(self.record_irradiance(&running.wanted)?),
             Step::LightRoot(stored) => {
                 let light = self.light.stored(stored).made("light")?;
-                self.read(&light, LIGHT_BYTES)
+                Ok(Some(self.read(&light, LIGHT_BYTES)?))
             }
+            Step::Surface(step) => Ok(Some(self.start_surface_step(step, &running.wanted)?)),
             Step::ReduceExact => job(self.record_exact_masks()?),
             Step::Picture => job(self.record_picture(&running.wanted)?),
             Step::Compare(which) => job(self.record_comparison(which)?),
@@ -153,21 +164,21 @@ impl Engine {
                 let octree = self.octree(which);
                 let (buffer, bytes) = octree.sizes().ok_or_else(|| missing("octree sizes"))?;
                 let buffer = buffer.clone();
-                self.read(&buffer, bytes)
+                Ok(Some(self.read(&buffer, bytes)?))
             }
             Step::Root(which) => {
                 let nodes = self.octree(which).buffers.nodes.made("nodes")?;
-                self.read(&nodes, 8)
+                Ok(Some(self.read(&nodes, 8)?))
             }
             Step::Counts(_) => {
                 let counts = self.counts_buffer()?;
-                self.read(&counts, 4 * compare_sets::COUNT_WORDS)
+                Ok(Some(self.read(&counts, 4 * compare_sets::COUNT_WORDS)?))
             }
         }
     }
 
-    fn read(&self, buffer: &GpuBuffer, bytes: u64) -> Result<Option<Work>, EngineError> {
-        Ok(Some(Work::Read(self.gpu.start_read(buffer, 0..bytes)?)))
+    pub(super) fn read(&self, buffer: &GpuBuffer, bytes: u64) -> Result<Work, EngineError> {
+        Ok(Work::Read(self.gpu.start_read(buffer, 0..bytes)?))
     }
 
     /// Bytes a step asked for have come.
@@ -177,6 +188,7 @@ impl Engine {
             Step::Sizes(which) => self.octree(which).set_sizes(&words),
             Step::Root(which) => self.octree(which).occupancy = u64::from(words[0]) | u64::from(words[1]) << 32,
             Step::LightRoot(stored) => self.light.set_root(stored, bytemuck::pod_read_unaligned(bytes)),
+            Step::Surface(step) => self.surface_step_received(step, bytes),
             Step::Counts(Which::Shown) => self.comparison.shown = Some([0, 1, 2].map(|i| u64::from(words[i]))),
             Step::Counts(Which::Other) => self.comparison.other = Some([0, 1, 2].map(|i| u64::from(words[i]))),
             _ => {}
@@ -221,11 +233,14 @@ impl Engine {
             Step::Illuminate => self.timings.lit = took,
             Step::Inject { .. } | Step::GatherSky | Step::GatherBounce => self.timings.lit.extend(took),
             Step::LightRoot(Stored::Radiance) => {
-                self.done.light = Some(wanted.lit_by());
+                self.done.light = Some(LitBy::new(wanted));
                 self.done.irradiance = false;
+                self.done.diffuse = None;
+                self.done.specular = None;
             }
             Step::Irradiance => self.timings.irradiance = took,
             Step::LightRoot(Stored::Irradiance) => self.done.irradiance = true,
+            Step::Surface(step) => self.surface_step_finished(step, wanted, took),
             Step::ReduceExact => self.done.exact_masks = self.exact.clone(),
             Step::Picture => self.picture_finished(wanted, took),
             Step::Compare(Which::Shown) => self.timings.compared = took,
@@ -239,6 +254,6 @@ impl Engine {
         self.timings.picture = took;
         self.done.view = Some((wanted.settings.look, wanted.size_px));
         let is_mesh = wanted.settings.look.view == View::Mesh;
-        self.done.mesh_frame = is_mesh.then(|| (wanted.frame.clone(), wanted.hidden.clone()));
+        self.done.mesh = is_mesh.then(|| wanted.placed.clone());
     }
 }

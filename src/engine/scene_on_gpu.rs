@@ -9,6 +9,7 @@ use crate::data::pages::{Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
 use crate::gpu::{Gpu, GpuBuffer, GpuError};
 use crate::plan::SceneFacts;
 use crate::prepare::{FrameMatrices, Prepared};
+use crate::scene::{Primitive, Scene};
 use crate::settings::Hidden;
 use crate::stages::transform::{Matrix3x4, MovingVoxels, Part};
 
@@ -50,7 +51,7 @@ pub struct FrameChanges {
 }
 
 /// Counts a frame's voxels in the grid, and the triangles of what is not hidden.
-pub fn facts(prepared: &Prepared, frame: &FrameMatrices, hidden: &Hidden) -> SceneFacts {
+pub fn facts(prepared: &Prepared, frame: &FrameMatrices, hidden: &Hidden, glossy_roughness: f64) -> SceneFacts {
     let mut facts = SceneFacts::default();
     for (part, _) in prepared.parts.iter().zip(&frame.resident).filter(|(_, resident)| **resident) {
         let voxels = part.tile.voxels.len() as u64;
@@ -64,9 +65,22 @@ pub fn facts(prepared: &Prepared, frame: &FrameMatrices, hidden: &Hidden) -> Sce
         }
     }
     let shown = (0..).zip(&prepared.objects).filter(|(index, _)| !hidden.contains(*index));
-    let meshes = shown.map(|(_, object)| &prepared.scene.meshes[object.object.mesh]);
-    facts.triangles = meshes.map(|mesh| mesh.triangle_count() as u64).sum();
+    let scene = &prepared.scene;
+    for (_, object) in shown {
+        let mesh = &scene.meshes[object.object.mesh];
+        facts.triangles += mesh.triangle_count() as u64;
+        facts.glossy |= mesh.primitives.iter().any(|primitive| may_be_glossy(scene, primitive, glossy_roughness));
+    }
     facts
+}
+
+/// What a texture makes of a roughness is known per pixel only.
+fn may_be_glossy(scene: &Scene, primitive: &Primitive, glossy_roughness: f64) -> bool {
+    let material = primitive.material.and_then(|material| scene.materials.get(material));
+    material.is_some_and(|material| {
+        let is_smooth = f64::from(material.roughness) <= glossy_roughness;
+        !material.unlit && (is_smooth || material.metallic_roughness_texture.is_some())
+    })
 }
 
 impl SceneOnGpu {

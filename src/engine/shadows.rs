@@ -1,13 +1,11 @@
 //! The shadow maps of a frame: one a light, drawn again where a light or an object moved.
 
-use std::sync::Arc;
-
-use super::wanted::Wanted;
+use super::wanted::{Placed, Wanted};
 use super::{Engine, EngineError, missing};
 use crate::gpu::Recorder;
 use crate::prepare::Prepared;
-use crate::scene::{Aabb, Pose};
-use crate::settings::{Hidden, MotionSettings};
+use crate::scene::Aabb;
+use crate::settings::MotionSettings;
 use crate::stages::light::shadow::{ShadowMap, ShadowParams};
 use crate::stages::mesh::PosedMesh;
 
@@ -16,19 +14,14 @@ const MAX_SHADOW_TEXELS: u64 = 1 << 26;
 
 /// What the shadow maps were drawn from.
 #[derive(Clone, Debug)]
-pub struct ShadowedBy {
-    pub params: Vec<ShadowParams>,
-    pub pose: Arc<Pose>,
-    pub hidden: Hidden,
+pub(super) struct ShadowedBy {
+    params: Vec<ShadowParams>,
+    placed: Placed,
 }
 
 impl ShadowedBy {
-    /// By bits: a matrix that is not finite is equal to itself.
     pub fn is(&self, other: &Self) -> bool {
-        let bits = |pose: &Pose| -> Vec<[u64; 16]> {
-            pose.world_from_node.iter().map(|matrix| matrix.to_cols_array().map(f64::to_bits)).collect()
-        };
-        self.params == other.params && self.hidden == other.hidden && bits(&self.pose) == bits(&other.pose)
+        self.params == other.params && self.placed.is(&other.placed)
     }
 }
 
@@ -62,7 +55,7 @@ fn turned(bounds: Aabb, motion: &MotionSettings) -> Aabb {
 impl Engine {
     pub(super) fn shadowed_by(&self, wanted: &Wanted) -> Option<ShadowedBy> {
         let params = shadow_params(self.prepared.as_ref()?, wanted);
-        Some(ShadowedBy { params, pose: Arc::clone(&wanted.pose), hidden: wanted.hidden.clone() })
+        Some(ShadowedBy { params, placed: wanted.placed.clone() })
     }
 
     pub(super) fn shadows_changed(&self, wanted: &Wanted) -> bool {
@@ -78,7 +71,7 @@ impl Engine {
         let prepared = self.prepared.clone().ok_or(EngineError::NoScene)?;
         let mesh = self.mesh.as_ref().ok_or_else(|| missing("mesh vertices"))?;
         let params = shadow_params(&prepared, wanted);
-        let of_pose = (&*wanted.pose, &wanted.hidden);
+        let of_pose = (&*wanted.placed.pose, &wanted.placed.hidden);
         let to_grid = prepared.grid.grid_from_world();
         let posed = PosedMesh::new(&self.gpu, mesh, &mut self.light.matrices, of_pose, &to_grid)?;
         let kept = self.light.maps.iter().map(|map| (map.params.count, map.params.size_px));

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use super::surface_steps::SurfaceStep;
 use crate::plan::{FramePlan, Pass};
 
 /// Which of the two octrees.
@@ -45,6 +46,7 @@ pub enum Step {
     Irradiance,
     /// Brings the mean light of the scene back.
     LightRoot(Stored),
+    Surface(SurfaceStep),
     ReduceExact,
     UploadMesh,
     Picture,
@@ -79,6 +81,10 @@ pub fn of_plan(plan: &FramePlan, bounces: u32) -> VecDeque<Step> {
         steps.extend([Step::UploadMesh, Step::Shadows]);
     }
     steps.extend(light(plan, bounces));
+    if plan.runs(Pass::DrawSurfaces) {
+        steps.push_back(Step::UploadMesh);
+    }
+    steps.extend(SurfaceStep::of_plan(plan).map(Step::Surface));
     if plan.runs(Pass::ReduceExact) {
         steps.push_back(Step::ReduceExact);
     }
@@ -100,8 +106,15 @@ pub fn of_plan(plan: &FramePlan, bounces: u32) -> VecDeque<Step> {
 }
 
 /// The passes that draw the picture, one of them a frame.
-const PICTURES: [Pass; 6] =
-    [Pass::MarchVoxels, Pass::MarchLight, Pass::SliceOctree, Pass::ShowShadowMap, Pass::DrawMesh, Pass::MarchGhost];
+const PICTURES: [Pass; 7] = [
+    Pass::ShowSurfaces,
+    Pass::MarchVoxels,
+    Pass::MarchLight,
+    Pass::SliceOctree,
+    Pass::ShowShadowMap,
+    Pass::DrawMesh,
+    Pass::MarchGhost,
+];
 
 /// From irradiance to averaged light. Sky and bounces sample what was injected before them, so that the
 /// same number of bounces gives the same light whatever was there before.

@@ -2,14 +2,16 @@
 
 use std::sync::Arc;
 
+use super::cones::TracedBy;
 use super::light::LitBy;
 use super::shadows::ShadowedBy;
+use super::surfaces::SeenBy;
 use super::{Engine, EngineError, other_filter, scene_on_gpu};
 use crate::data::octree::PointerLayout;
-use crate::lights::{PosedLight, posed_lights};
-use crate::plan::{Changes, SceneFacts};
+use crate::lights::{self, PosedLight, posed_lights};
+use crate::plan::{self, Changes, ConesAsked, SceneFacts};
 use crate::prepare::{ExactVoxels, FrameMatrices, Prepared};
-use crate::scene::Pose;
+use crate::scene::{OrbitCamera, Pose};
 use crate::settings::{ColorBy, Filter, Hidden, Look, Settings, View};
 use crate::stages::fill::number_objects::OBJECT_MASK;
 
@@ -18,16 +20,44 @@ use crate::stages::fill::number_objects::OBJECT_MASK;
 pub(super) struct Wanted {
     pub settings: Settings,
     pub size_px: [u32; 2],
-    pub pose: Arc<Pose>,
+    pub camera: OrbitCamera,
+    pub placed: Placed,
     pub lights: Vec<PosedLight>,
     pub frame: FrameMatrices,
-    pub hidden: Hidden,
     pub facts: SceneFacts,
 }
 
+/// Where every triangle is, and which are not shown.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub pose: Arc<Pose>,
+    pub hidden: Hidden,
+}
+
+impl Placed {
+    /// By bits: a matrix that is not finite is equal to itself.
+    pub fn is(&self, other: &Self) -> bool {
+        let bits = |pose: &Pose, node: usize| pose.world_from_node[node].to_cols_array().map(f64::to_bits);
+        let (a, b) = (&*self.pose, &*other.pose);
+        let nodes = a.world_from_node.len();
+        self.hidden == other.hidden
+            && (Arc::ptr_eq(&self.pose, &other.pose)
+                || nodes == b.world_from_node.len() && (0..nodes).all(|node| bits(a, node) == bits(b, node)))
+    }
+}
+
 impl Wanted {
-    pub fn lit_by(&self) -> LitBy {
-        LitBy { lights: self.lights.clone(), lighting: self.settings.lighting.clone() }
+    /// The octree's light is read for more than its opacity.
+    pub fn reads_radiance(&self) -> bool {
+        !plan::only_opacity(&self.facts, &self.settings)
+    }
+
+    pub fn shows_surfaces(&self) -> bool {
+        self.settings.look.view == View::Surfaces && !self.shows_nothing()
+    }
+
+    pub fn cones_asked(&self) -> ConesAsked {
+        ConesAsked::new(&self.facts, &self.settings)
     }
 
     /// The light whose shadow map is wanted does not shine: the last one's is shown.
@@ -58,13 +88,18 @@ pub(super) struct Done {
     pub compared: Option<Arc<ExactVoxels>>,
     pub view: Option<(Look, [u32; 2])>,
     /// What the mesh view last drew.
-    pub mesh_frame: Option<(FrameMatrices, Hidden)>,
+    pub mesh: Option<Placed>,
     pub exact_masks: Option<Arc<ExactVoxels>>,
     pub links: Vec<PointerLayout>,
     pub emission: bool,
     pub shadows: Option<ShadowedBy>,
     pub light: Option<LitBy>,
     pub irradiance: bool,
+    pub surfaces: Option<SeenBy>,
+    /// Lights of the surface image's direct light.
+    pub direct: Option<LitBy>,
+    pub diffuse: Option<TracedBy>,
+    pub specular: Option<TracedBy>,
 }
 
 impl Engine {
@@ -73,15 +108,19 @@ impl Engine {
         let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
         check_object_numbers(prepared, &settings.look)?;
         let hidden = prepared.hidden(&settings.visibility)?;
-        let frame = prepared.fold(&settings.motion, settings.discretization.anchor, &hidden)?;
-        let pose = Arc::new(prepared.pose(&settings.motion)?);
+        let pose = prepared.pose(&settings.motion)?;
+        let frame = prepared.fold((&settings.motion, &pose), settings.discretization.anchor, &hidden);
         let shown = settings.visibility.shown_nodes(&prepared.scene)?;
-        let emits = prepared.brightest_emission > 0.0 && settings.lighting.emission > 0.0;
+        let emits = lights::emits(prepared, &settings.lighting);
         let lights = posed_lights(&prepared.scene, &pose, &settings.lighting, &shown, emits);
-        let facts = SceneFacts { lights: lights.len() as u32, ..scene_on_gpu::facts(prepared, &frame, &hidden) };
+        let glossy_roughness = settings.cone_tracing.glossy_roughness;
+        let facts = scene_on_gpu::facts(prepared, &frame, &hidden, glossy_roughness);
+        let facts = SceneFacts { lights: lights.len() as u32, ..facts };
+        let placed = Placed { pose: Arc::new(pose), hidden };
         // A picture has at least one pixel.
         let size_px = size_px.map(|size| size.max(1));
-        self.wanted = Some(Wanted { settings: settings.clone(), size_px, pose, lights, frame, hidden, facts });
+        let camera = prepared.camera(settings, &placed.pose, size_px);
+        self.wanted = Some(Wanted { settings: settings.clone(), size_px, camera, placed, lights, frame, facts });
         if self.running.is_none() {
             self.make_plan();
         }
@@ -97,9 +136,9 @@ impl Engine {
             (Some(exact), Some(done)) => !Arc::ptr_eq(exact, done),
             (exact, done) => exact.is_some() != done.is_some(),
         };
-        let drawn = self.done.mesh_frame.as_ref();
-        let mesh_moved = wanted.settings.look.view == View::Mesh
-            && drawn.is_none_or(|(frame, hidden)| *frame != wanted.frame || *hidden != wanted.hidden);
+        let drawn = self.done.mesh.as_ref();
+        let mesh_moved =
+            wanted.settings.look.view == View::Mesh && drawn.is_none_or(|placed| !placed.is(&wanted.placed));
         Changes {
             caches: self.scene.is_none(),
             residents: of_frame.residents,
@@ -115,8 +154,12 @@ impl Engine {
             links: self.links_missing(wanted),
             emission: !self.done.emission,
             shadow_maps: self.shadows_changed(wanted),
-            lighting: self.done.light.as_ref() != Some(&wanted.lit_by()),
+            lighting: !self.done.light.as_ref().is_some_and(|done| done.serves(wanted)),
             irradiance: !self.done.irradiance,
+            surfaces: !self.done.surfaces.as_ref().is_some_and(|done| done.is(wanted)),
+            direct: !self.done.direct.as_ref().is_some_and(|done| done.is_of(wanted)),
+            diffuse: self.done.diffuse != Some(TracedBy::diffuse(wanted)),
+            specular: self.done.specular != Some(TracedBy::specular(wanted)),
         }
     }
 }

@@ -1,10 +1,12 @@
 //! Pictures and voxels as files. The same content always gives the same bytes.
 
+mod light_file;
 mod picture;
 mod voxel_file;
 
 use std::path::{Path, PathBuf};
 
+pub use light_file::write_exr;
 pub use picture::{read_settings, write_png};
 pub use voxel_file::{write_npz, write_ply};
 

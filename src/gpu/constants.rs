@@ -10,7 +10,7 @@ use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
 use crate::stages::fill::number_objects::OBJECT_MASK;
 use crate::stages::light::gather;
-use crate::stages::{light, mesh, sample, view};
+use crate::stages::{light, mesh, sample, surface, view};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
@@ -24,12 +24,15 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("COLOR_OCCUPANCY", view::COLOR_OCCUPANCY),
     ("COUNTER_CLIPPED", COUNTER_CLIPPED),
     ("COUNTER_OCCUPIED", COUNTER_OCCUPIED),
+    ("CURVE_ACES", view::show_surfaces::CURVE_ACES),
+    ("CURVE_REINHARD", view::show_surfaces::CURVE_REINHARD),
     ("EMISSION_MAX", EMISSION_MAX),
     ("FILTER_QUADRILINEAR", sample::FILTER_QUADRILINEAR),
     ("FILTER_TRILINEAR", sample::FILTER_TRILINEAR),
     ("FRACTION_BITS", FRACTION_BITS),
     ("FRACTION_ONE", 1 << FRACTION_BITS),
     ("FULL_WEIGHT", FULL_WEIGHT),
+    ("LEFT_HANDED", mesh::LEFT_HANDED),
     ("LIGHT_DIRECTIONAL", light::LIGHT_DIRECTIONAL),
     ("LIGHT_SPOT", light::LIGHT_SPOT),
     ("MAX_FRAGMENTS", MAX_FRAGMENTS),
@@ -39,8 +42,22 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("SCAN_CHUNK", SCAN_CHUNK),
     ("SHADOWS_MAP", light::SHADOWS_MAP),
     ("SHADOWS_OFF", light::SHADOWS_OFF),
+    ("SHOWS_DEPTH", view::show_surfaces::SHOWS_DEPTH),
+    ("SHOWS_LIGHT", view::show_surfaces::SHOWS_LIGHT),
+    ("SHOWS_NORMAL", view::show_surfaces::SHOWS_NORMAL),
     ("SLICE_LOGARITHMIC", view::slice::SLICE_LOGARITHMIC),
     ("SLICE_OCCUPANCY", view::slice::SLICE_OCCUPANCY),
+    ("SUM_THREADS", surface::sum_luminance::SUM_THREADS),
+    ("TERM_ALBEDO", surface::compose::TERM_ALBEDO),
+    ("TERM_AO", surface::compose::TERM_AO),
+    ("TERM_DEPTH", surface::compose::TERM_DEPTH),
+    ("TERM_DIFFUSE", surface::compose::TERM_DIFFUSE),
+    ("TERM_DIRECT", surface::compose::TERM_DIRECT),
+    ("TERM_FINAL", surface::compose::TERM_FINAL),
+    ("TERM_IRRADIANCE", surface::compose::TERM_IRRADIANCE),
+    ("TERM_NORMAL", surface::compose::TERM_NORMAL),
+    ("TERM_ROUGHNESS", surface::compose::TERM_ROUGHNESS),
+    ("TERM_SPECULAR", surface::compose::TERM_SPECULAR),
     ("TILE_CELLS", TILE_CELLS as u32),
     ("VIEW_EDGES", view::VIEW_EDGES),
     ("VIEW_LENGTH_RULE", view::VIEW_LENGTH_RULE),
@@ -50,20 +67,30 @@ pub const CONSTANTS: &[(&str, u32)] = &[
 
 /// The same for numbers that are no integers.
 pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
+    ("ACES_A", view::show_surfaces::ACES[0]),
+    ("ACES_B", view::show_surfaces::ACES[1]),
+    ("ACES_C", view::show_surfaces::ACES[2]),
+    ("ACES_D", view::show_surfaces::ACES[3]),
+    ("ACES_E", view::show_surfaces::ACES[4]),
     ("AMBIENT", view::AMBIENT),
+    ("DIELECTRIC_REFLECTANCE", surface::DIELECTRIC_REFLECTANCE),
     ("EDGE_FROM_PX", view::EDGE_FROM_PX),
     ("EDGE_FULL_PX", view::EDGE_FULL_PX),
     ("EDGE_SHADE", view::EDGE_SHADE),
     ("GOLDEN_ANGLE", gather::GOLDEN_ANGLE),
     ("INVERSE_PI", std::f64::consts::FRAC_1_PI),
     ("LEAST_DISTANCE_CELLS", light::LEAST_DISTANCE_CELLS),
+    ("LEAST_EYE_COSINE", surface::LEAST_EYE_COSINE),
     ("LEAST_LIGHT", view::LEAST_LIGHT),
+    ("LEAST_ROUGHNESS", surface::LEAST_ROUGHNESS),
     ("LEAST_STEP", gather::LEAST_STEP),
     ("LEAST_THROUGH", sample::LEAST_THROUGH),
+    ("LIGHT_NEAR_CELLS", light::shadow::NEAR_CELLS),
     ("LUMINANCE_BLUE", LUMINANCE[2]),
     ("LUMINANCE_GREEN", LUMINANCE[1]),
     ("LUMINANCE_RED", LUMINANCE[0]),
     ("PI", std::f64::consts::PI),
+    ("SHADOW_OFFSET_CELLS", surface::SHADOW_OFFSET_CELLS),
     ("SHORT_NORMAL", view::SHORT_NORMAL),
     ("SPREAD_COSINE", light::SPREAD_COSINE),
 ];

@@ -14,12 +14,16 @@ use crate::stages::light::gather::ConeParams;
 use crate::stages::light::illuminate::LightParams;
 use crate::stages::light::inject::InjectParams;
 use crate::stages::light::shadow::{ShadowFrame, ShadowParams};
-use crate::stages::mesh::{DrawParams, MeshVertex, VertexJoints};
+use crate::stages::mesh::{DrawParams, MeshVertex, TextureSlot, VertexJoints};
 use crate::stages::sample::sample_points::PointParams;
+use crate::stages::surface::compose::ComposeParams;
+use crate::stages::surface::draw::SurfaceParams;
+use crate::stages::surface::sum_luminance::SumParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
 use crate::stages::view::march_light::ExposureParams;
 use crate::stages::view::mesh::MeshParams;
 use crate::stages::view::show_shadow::ShowShadowParams;
+use crate::stages::view::show_surfaces::ShowSurfacesParams;
 use crate::stages::view::slice::SliceParams;
 use crate::stages::view::{GhostColors, Palette, ViewParams};
 
@@ -79,7 +83,7 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(ShadowParams, "shared/shadow_map.wgsl", "ShadowParams", frames, count, size_px, pad),
     mirror!(
         LightParams,
-        "light/illuminate.wgsl",
+        "shared/light.wgsl",
         "LightParams",
         position,
         kind,
@@ -105,6 +109,9 @@ pub const MIRRORS: &[Mirror] = &[
         reach_cells,
     ),
     mirror!(SliceParams, "view/slice.wgsl", "SliceParams", axis, height_cells, at, flags, least, most, pad,),
+    mirror!(ComposeParams, "surface/compose.wgsl", "ComposeParams", sky, glossy_roughness, span, pad, pad_end),
+    mirror!(SumParams, "surface/sum_luminance.wgsl", "SumParams", pixels),
+    mirror!(ShowSurfacesParams, "view/show_surfaces.wgsl", "ShowSurfacesParams", exposure, least, most, sky),
     mirror!(PointParams, "sample/sample_points.wgsl", "PointParams", direction, pad),
     mirror!(
         ViewParams,
@@ -128,7 +135,9 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(Palette, "shared/view.wgsl", "Palette", colors),
     mirror!(GhostColors, "view/ghost.wgsl", "GhostColors", both, holes, spill),
     mirror!(MeshParams, "view/mesh.wgsl", "MeshParams", clip_from_camera, world_from_camera),
-    mirror!(MeshVertex, "shared/posed_mesh.wgsl", "MeshVertex", position, normal, tex_coord, color, pad),
+    mirror!(MeshVertex, "shared/posed_mesh.wgsl", "MeshVertex", position, normal, tex_coords, color, tangent, pad,),
+    mirror!(SurfaceParams, "surface/draw.wgsl", "SurfaceParams", clip_from_camera, world_from_camera, emission, pad,),
+    mirror!(TextureSlot, "shared/posed_mesh.wgsl", "TextureSlot", u, tex_coord, v, is_filled),
     mirror!(VertexJoints, "shared/posed_mesh.wgsl", "VertexJoints", joints, weights),
     mirror!(Matrix3x4, "shared/posed_mesh.wgsl", "MeshMatrix", rows),
     mirror!(
@@ -143,6 +152,15 @@ pub const MIRRORS: &[Mirror] = &[
         alpha_mode,
         cutoff,
         unlit,
+        has_tangents,
+        emissive,
+        normal_scale,
+        roughness,
+        metallic,
         pad,
+        base_color_slot,
+        metallic_roughness_slot,
+        normal_slot,
+        emissive_slot,
     ),
 ];

@@ -4,13 +4,16 @@
 
 mod light;
 mod pass;
+mod surfaces;
 mod voxels;
 
 use serde::Serialize;
 
 use crate::settings::Settings;
 
+pub use light::only_opacity;
 pub use pass::Pass;
+pub use surfaces::ConesAsked;
 
 /// What a scene holds, as far as a frame's plan depends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -24,6 +27,8 @@ pub struct SceneFacts {
     pub lights: u32,
     /// Voxels inside the grid of objects that emit.
     pub emissive_voxels: u64,
+    /// Some surface may be smooth enough for a specular cone.
+    pub glossy: bool,
 }
 
 impl SceneFacts {
@@ -65,6 +70,13 @@ pub struct Changes {
     pub lighting: bool,
     /// The irradiance of inner nodes is not that of the leaves.
     pub irradiance: bool,
+    /// The surface image is not of this camera, pose and picture size.
+    pub surfaces: bool,
+    /// Its direct light is not that of these lights.
+    pub direct: bool,
+    /// Diffuse cones, or specular ones, were not traced as is wanted.
+    pub diffuse: bool,
+    pub specular: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -117,6 +129,7 @@ pub fn plan(scene: &SceneFacts, changed: &Changes, settings: &Settings) -> Frame
     let mut plan = FramePlan::default();
     let rebuilt = voxels::build(&mut plan, scene, changed, settings);
     let relit = light::light(&mut plan, scene, changed, settings, rebuilt);
+    surfaces::surfaces(&mut plan, scene, changed, settings, (rebuilt, relit));
     voxels::views(&mut plan, scene, changed, settings, (rebuilt, relit));
     plan
 }

@@ -33,6 +33,25 @@ pub enum Pass {
     Bounces,
     /// Irradiance of every node, for the view of it.
     AverageIrradiance,
+    /// What the camera sees: places and materials.
+    DrawSurfaces,
+    /// Direct light on it begins with what it emits.
+    EmitSurfaces,
+    /// A light at a time, shadows by maps or not at all.
+    LightSurfaces,
+    /// The same, shadows marched through the octree.
+    LightByMarching,
+    TraceDiffuse,
+    /// From pixels that share cones to every pixel.
+    FilterDiffuse,
+    /// Where a specular cone is called for.
+    ListGlossyTiles,
+    TraceSpecular,
+    FilterSpecular,
+    /// What is shown of it, as linear light.
+    ComposeSurfaces,
+    MeasureExposure,
+    ShowSurfaces,
     MarchVoxels,
     MarchLight,
     SliceOctree,
@@ -48,7 +67,7 @@ pub enum Pass {
 
 impl Pass {
     /// Every pass, in frame order.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 43] = [
         Self::UploadCaches,
         Self::ObjectIo,
         Self::TransformRigid,
@@ -71,6 +90,18 @@ impl Pass {
         Self::AverageLight,
         Self::Bounces,
         Self::AverageIrradiance,
+        Self::DrawSurfaces,
+        Self::EmitSurfaces,
+        Self::LightSurfaces,
+        Self::LightByMarching,
+        Self::TraceDiffuse,
+        Self::FilterDiffuse,
+        Self::ListGlossyTiles,
+        Self::TraceSpecular,
+        Self::FilterSpecular,
+        Self::ComposeSurfaces,
+        Self::MeasureExposure,
+        Self::ShowSurfaces,
         Self::MarchVoxels,
         Self::MarchLight,
         Self::SliceOctree,
@@ -118,6 +149,17 @@ impl Pass {
                 "averaging/average",
             ],
             Self::CompareExact => &["compare/compare_sets"],
+            Self::DrawSurfaces => &["surface/draw"],
+            Self::EmitSurfaces => &["surface/emission"],
+            Self::LightSurfaces => &["surface/direct"],
+            Self::LightByMarching => &["surface/direct_march"],
+            Self::TraceDiffuse => &["cones/diffuse"],
+            Self::FilterDiffuse | Self::FilterSpecular => &["cones/filter"],
+            Self::ListGlossyTiles => &["cones/glossy_tiles"],
+            Self::TraceSpecular => &["cones/specular"],
+            Self::ComposeSurfaces => &["surface/compose"],
+            Self::MeasureExposure => &["surface/sum_luminance"],
+            Self::ShowSurfaces => &["view/show_surfaces"],
             Self::MarchVoxels => &["view/march"],
             Self::MarchLight => &["view/march_light"],
             Self::SliceOctree => &["view/slice"],

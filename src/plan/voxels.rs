@@ -1,6 +1,7 @@
 //! Rules of the passes that move voxels, build the octree and show it.
 
 use super::light::store_skipped;
+use super::surfaces::{ConesAsked, marches_shadows};
 use super::{Changes, FramePlan, Pass, SceneFacts, Verdict, unless};
 use crate::settings::{ColorBy, Filter, Settings, View};
 
@@ -65,9 +66,15 @@ pub(super) fn octree_wanted(scene: &SceneFacts, settings: &Settings) -> Option<&
         Some("the mesh view shows no voxels")
     } else if settings.look.view == View::ShadowMap && !settings.look.accuracy {
         Some("the shadow map shows no voxels")
+    } else if settings.look.view == View::Surfaces && !settings.look.accuracy && !reads_octree(scene, settings) {
+        Some("no cone and no shadow asks the octree")
     } else {
         None
     }
+}
+
+fn reads_octree(scene: &SceneFacts, settings: &Settings) -> bool {
+    ConesAsked::new(scene, settings).any() || marches_shadows(scene, settings)
 }
 
 fn transform_rigid(scene: &SceneFacts, changed: &Changes, wanted: Option<&'static str>) -> Verdict {

@@ -69,15 +69,14 @@ impl Prepared {
         DMat4::from_translation(centre) * rotation * DMat4::from_translation(-centre)
     }
 
-    /// Folds a pose into what the GPU reads. Parts that are hidden or outside the grid need no matrix:
-    /// how those move changes nothing.
+    /// Folds a pose, which must be that of `motion`, into what the GPU reads. Parts that are hidden or outside
+    /// the grid need no matrix: how those move changes nothing.
     pub fn fold(
         &self,
-        motion: &MotionSettings,
+        (motion, pose): (&MotionSettings, &Pose),
         anchor: VoxelAnchor,
         hidden: &Hidden,
-    ) -> Result<FrameMatrices, MotionError> {
-        let pose = self.pose(motion)?;
+    ) -> FrameMatrices {
         let mut fold = Fold {
             prepared: self,
             grid_from_world: self.grid.grid_from_world(),
@@ -90,11 +89,11 @@ impl Prepared {
             let is_hidden = hidden.contains(part.object);
             match self.objects[part.object].object.motion {
                 Motion::Skinned { .. } if is_hidden => fold.push_part(part, IVec3::ZERO, 0, false),
-                Motion::Skinned { skin } => fold.skinned_part(part, skin, &pose),
-                Motion::Static | Motion::Rigid => fold.rigid_part(part, &pose, is_hidden),
+                Motion::Skinned { skin } => fold.skinned_part(part, skin, pose),
+                Motion::Static | Motion::Rigid => fold.rigid_part(part, pose, is_hidden),
             }
         }
-        Ok(fold.frame)
+        fold.frame
     }
 }
 

@@ -4,6 +4,8 @@ use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
+use super::look::{Lookup, Sampling};
+
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ConeTracing {
@@ -23,6 +25,9 @@ pub struct ConeTracing {
     pub start_voxels: f64,
     /// Length of a step in diameters of the cone.
     pub step_diameters: f64,
+    /// How a cone's samples are taken from the octree, and found in it.
+    pub sampling: Sampling,
+    pub lookup: Lookup,
     /// What is farther away occludes nothing, scene units; `None`: an eighth of the grid.
     pub occlusion_distance: Option<f64>,
     /// Largest picture whose every pixel sends out cones; larger ones take them from neighbours. `None`: as
@@ -45,6 +50,8 @@ impl Default for ConeTracing {
             cone_degrees: 30.0,
             start_voxels: 1.5,
             step_diameters: 1.0,
+            sampling: Sampling::default(),
+            lookup: Lookup::default(),
             occlusion_distance: None,
             indirect_px: None,
             half_resolution: true,
@@ -77,9 +84,14 @@ impl ConeTracing {
         if self.half_resolution { size_px.map(|side| side.div_ceil(2)) } else { size_px }
     }
 
-    /// Every pixel of the picture has all its diffuse cones to itself.
-    pub fn is_unfiltered(&self, picture_px: [u32; 2]) -> bool {
-        self.pattern_px == 1 && self.diffuse_size_px(picture_px) == picture_px
+    /// Pixels of the picture take diffuse cones from their neighbours.
+    pub fn shares_diffuse(&self) -> bool {
+        self.pattern_px > 1 || self.half_resolution || self.shares_specular()
+    }
+
+    /// Pixels of the picture may take specular cones from their neighbours.
+    pub fn shares_specular(&self) -> bool {
+        self.indirect_px.is_some()
     }
 
     /// Are all values in range? If not, the sentence names value and range.

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 
 use super::Lighting;
 use super::lighting::LightPart;
+use super::listed_names::listed;
 use crate::lights::unedited;
 use crate::scene::Scene;
 
@@ -27,9 +28,6 @@ pub enum LightError {
     #[error("{scene}: light \"{name}\" cannot be changed: {cause}")]
     Impossible { scene: String, name: String, cause: String },
 }
-
-/// Names that an error lists at most.
-const LISTED_NAMES: usize = 12;
 
 impl Lighting {
     /// Adds changes to the edits, or changes nothing. Returns a sentence for each name that is not the
@@ -82,12 +80,7 @@ fn carriers<'a>(scene: &'a Scene, name: &str) -> Result<Vec<(usize, &'a crate::s
 fn known(scene: &Scene) -> String {
     let lights = (0..scene.nodes.len()).filter_map(|node| light_of(scene, node));
     let names: BTreeSet<&str> = lights.map(|light| &*light.name).collect();
-    let listed: Vec<String> = names.iter().take(LISTED_NAMES).map(|name| format!("\"{name}\"")).collect();
-    match names.len() - listed.len() {
-        0 if listed.is_empty() => "it has no lights".to_owned(),
-        0 => format!("its lights are {}", listed.join(", ")),
-        more => format!("its lights are {} and {more} more", listed.join(", ")),
-    }
+    listed("its lights are", "it has no lights", &names)
 }
 
 #[cfg(test)]

@@ -156,6 +156,17 @@ pub enum SliceValue {
     Occupancy,
 }
 
+impl SliceValue {
+    /// The colours of its scale.
+    pub fn color(self) -> ColorBy {
+        match self {
+            Self::Radiance => ColorBy::Radiance,
+            Self::Irradiance => ColorBy::Irradiance,
+            Self::Occupancy => ColorBy::Occupancy,
+        }
+    }
+}
+
 /// How a place between nodes gets its value (section 4.4).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

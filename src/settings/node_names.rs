@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 
+use super::listed_names::listed;
 use super::visibility::with_descendants;
 use super::{LightChange, LightError, Lighting, Visibility, VisibilityError};
 use crate::scene::Scene;
@@ -17,9 +18,6 @@ pub struct NodeNames {
     pub only: Vec<String>,
     pub lights: Vec<LightChange>,
 }
-
-/// Names that an error lists at most.
-const LISTED_NAMES: usize = 12;
 
 impl NodeNames {
     /// Adds the nodes of all names to what is set. Returns a sentence for each name that is not the
@@ -60,12 +58,7 @@ fn named(scene: &Scene, name: &str) -> Result<BTreeSet<usize>, VisibilityError> 
     }
     let meshes: BTreeSet<&str> =
         scene.nodes.iter().filter(|node| node.mesh.is_some()).map(|node| &*node.name).collect();
-    let listed: Vec<String> = meshes.iter().take(LISTED_NAMES).map(|name| format!("\"{name}\"")).collect();
-    let known = match meshes.len() - listed.len() {
-        0 if listed.is_empty() => "none of its nodes has a mesh".to_owned(),
-        0 => format!("nodes with a mesh are {}", listed.join(", ")),
-        more => format!("nodes with a mesh are {} and {more} more", listed.join(", ")),
-    };
+    let known = listed("nodes with a mesh are", "none of its nodes has a mesh", &meshes);
     Err(VisibilityError::UnknownName { scene: scene.name.clone(), name: name.to_owned(), known })
 }
 

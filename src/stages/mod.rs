@@ -9,6 +9,7 @@ pub mod fill;
 pub mod light;
 pub mod mesh;
 pub mod sample;
+pub mod surface;
 pub mod transform;
 pub mod view;
 pub mod voxelize;

@@ -10,7 +10,7 @@ use octolume::data::octree::Slot;
 use octolume::gpu::{Gpu, Job, Recorder};
 use octolume::scene::{LocalTransform, Material, Mesh, Node, OrbitCamera, Primitive, Scene, Skin, Trs};
 use octolume::settings::{Hidden, Look};
-use octolume::stages::mesh::{MeshScene, PosedMesh};
+use octolume::stages::mesh::{MeshScene, PosedMesh, Textures};
 use octolume::stages::view::camera::PixelRays;
 use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
 use octolume::stages::view::{BACKGROUND, Picture, picture};
@@ -71,7 +71,7 @@ pub fn look() -> Look {
 pub fn recorded(gpu: &Gpu, scene: &Scene, look: &Look) -> (Recorder, Picture) {
     let objects = (0..).zip(scene.objects()).collect();
     let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects);
-    while !mesh.upload(gpu, &Hidden::default(), Duration::ZERO).expect("fits") {}
+    while !mesh.upload(gpu, (&Hidden::default(), Textures::BaseColor), Duration::ZERO).expect("fits") {}
     let picture = Picture::new(gpu, SIZE_PX).expect("fits");
     let depth = picture::depth_buffer(gpu, SIZE_PX).expect("fits");
     let (camera, grid) = (camera(), grid());

@@ -15,7 +15,7 @@ use proptest::prelude::*;
 use crate::scenes::{at, cube_scene, skinned_scene, sliding_scene};
 
 pub const RIGID: SceneFacts =
-    SceneFacts { rigid_voxels: 100, skinned_voxels: 0, triangles: 12, lights: 0, emissive_voxels: 0 };
+    SceneFacts { rigid_voxels: 100, skinned_voxels: 0, triangles: 12, lights: 0, emissive_voxels: 0, glossy: false };
 const SKINNED: SceneFacts = SceneFacts { rigid_voxels: 0, skinned_voxels: 100, ..RIGID };
 pub const FIRST: Changes = Changes {
     caches: true,
@@ -34,6 +34,10 @@ pub const FIRST: Changes = Changes {
     shadow_maps: true,
     lighting: true,
     irradiance: true,
+    surfaces: true,
+    direct: true,
+    diffuse: true,
+    specular: true,
 };
 /// Nothing changed since a frame that had no object numbers, no second octree and no light.
 pub const STILL: Changes = Changes {
@@ -53,6 +57,10 @@ pub const STILL: Changes = Changes {
     shadow_maps: true,
     lighting: true,
     irradiance: true,
+    surfaces: true,
+    direct: true,
+    diffuse: true,
+    specular: true,
 };
 
 const BUILD: [Pass; 7] = [
@@ -171,24 +179,35 @@ fn the_ghost_waits_for_the_exact_set() {
     assert_eq!(running(&plan(&RIGID, &known, &settings)), [Pass::ReduceExact, Pass::MarchGhost]);
 }
 
+const VIEWS: [View; 6] = [View::Voxels, View::Mesh, View::Ghost, View::Slice, View::ShadowMap, View::Surfaces];
+/// The passes that draw the picture.
+const PICTURES: [Pass; 7] = [
+    Pass::ShowSurfaces,
+    Pass::MarchVoxels,
+    Pass::MarchLight,
+    Pass::SliceOctree,
+    Pass::ShowShadowMap,
+    Pass::DrawMesh,
+    Pass::MarchGhost,
+];
+
 proptest! {
     /// What runs is never skipped by another rule: no view without its octree, no gather twice.
     #[test]
-    fn plans_are_consistent(bits in 0_u32..1 << 16, view in 0..5, accuracy: bool, rigid in 0_u64..2, skinned in 0_u64..2) {
+    fn plans_are_consistent(bits in 0_u32..1 << 20, view in 0_usize..6, accuracy: bool, rigid in 0_u64..2, skinned in 0_u64..2) {
         let bit = |index: u32| bits >> index & 1 == 1;
         let changed = Changes {
             caches: bit(0), residents: bit(1), rigid_poses: bit(2), skinned_poses: bit(3), octree: bit(4),
             other_octree: bit(5), exact: bit(6), exact_masks: bit(7), exact_known: bit(8), view: bit(9),
             object_numbers: bit(10), links: bit(11), emission: bit(12), shadow_maps: bit(13), lighting: bit(14),
-            irradiance: bit(15),
+            irradiance: bit(15), surfaces: bit(16), direct: bit(17), diffuse: bit(18), specular: bit(19),
         };
         let mut settings = Settings::default();
-        settings.look.view = [View::Voxels, View::Mesh, View::Ghost, View::Slice, View::ShadowMap][view as usize];
+        settings.look.view = VIEWS[view];
         settings.look.accuracy = accuracy;
         let plan = plan(&SceneFacts { rigid_voxels: rigid, skinned_voxels: skinned, ..RIGID }, &changed, &settings);
         let runs = |pass| plan.runs(pass);
-        let pictures = [Pass::MarchVoxels, Pass::MarchLight, Pass::SliceOctree, Pass::ShowShadowMap, Pass::DrawMesh, Pass::MarchGhost];
-        prop_assert!(pictures.into_iter().filter(|&pass| runs(pass)).count() <= 1);
+        prop_assert!(PICTURES.into_iter().filter(|&pass| runs(pass)).count() <= 1);
         prop_assert!(!(runs(Pass::GatherNearest) && runs(Pass::GatherSplit)));
         prop_assert_eq!(runs(Pass::MarkLeaves), runs(Pass::AverageNodes));
         prop_assert!(!(runs(Pass::TransformRigid) || runs(Pass::TransformSkinned)) || runs(Pass::MarkLeaves));

@@ -24,7 +24,8 @@ fn prepared(scene: Scene, span: Option<f64>) -> Prepared {
 }
 
 fn folded(prepared: &Prepared, motion: &MotionSettings) -> FrameMatrices {
-    prepared.fold(motion, VoxelAnchor::Centre, &Hidden::default()).unwrap_or_else(|error| panic!("{error}"))
+    let pose = prepared.pose(motion).unwrap_or_else(|error| panic!("{error}"));
+    prepared.fold((motion, &pose), VoxelAnchor::Centre, &Hidden::default())
 }
 
 /// World voxels of the parts that are in the grid, by object.

@@ -25,8 +25,9 @@ fn prepared(scene: Scene) -> Prepared {
 }
 
 fn folded(prepared: &Prepared) -> FrameMatrices {
-    let folded = prepared.fold(&MotionSettings::default(), VoxelAnchor::Centre, &Hidden::default());
-    folded.unwrap_or_else(|error| panic!("{error}"))
+    let motion = MotionSettings::default();
+    let pose = prepared.pose(&motion).unwrap_or_else(|error| panic!("{error}"));
+    prepared.fold((&motion, &pose), VoxelAnchor::Centre, &Hidden::default())
 }
 
 /// Two joints carry the cube far off to either side; half of each leaves it where it is.

@@ -16,7 +16,7 @@ use octolume::settings::lighting::Shadows;
 use octolume::stages::light::illuminate::{self, LightParams};
 use octolume::stages::light::illuminate_ref::{self, Source};
 use octolume::stages::light::shadow::{ShadowMap, ShadowParams};
-use octolume::stages::mesh::{MeshScene, PosedMesh};
+use octolume::stages::mesh::{MeshScene, PosedMesh, Textures};
 use octolume::stages::view::NO_DEPTH;
 
 use crate::device::gpu;
@@ -52,7 +52,7 @@ fn bounds() -> Option<Aabb> {
 fn mapped(gpu: &Gpu, scene: &Scene, lit: &PosedLight) -> ShadowMap {
     let objects = (0..).zip(scene.objects()).collect();
     let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects);
-    while !mesh.upload(gpu, &Hidden::default(), Duration::ZERO).expect("fits") {}
+    while !mesh.upload(gpu, (&Hidden::default(), Textures::BaseColor), Duration::ZERO).expect("fits") {}
     let of_pose = (&scene.pose(None, 0.0), &Hidden::default());
     let to_grid = grid(5).grid_from_world();
     let posed = PosedMesh::new(gpu, &mesh, &mut Slot::default(), of_pose, &to_grid).expect("fits");

@@ -135,7 +135,11 @@ fn a_long_object_slides_through_the_grid_without_a_gap() {
         // The grid is around the middle of all that is ever filled; in the end two tiles meet in it.
         for slide_cells in [0, 17, 500, 940, 976, 991, 1000] {
             let motion = MotionSettings { time_secs: f64::from(slide_cells), ..MotionSettings::default() };
-            let frame = prepared.fold(&motion, VoxelAnchor::Centre, &Hidden::default()).expect("folds");
+            let frame = prepared.fold(
+                (&motion, &prepared.pose(&motion).expect("poses")),
+                VoxelAnchor::Centre,
+                &Hidden::default(),
+            );
             let inside: Vec<usize> = (0..prepared.parts.len()).filter(|&part| frame.resident[part]).collect();
             assert!(inside.len() < prepared.parts.len(), "some of it is outside");
             parts_seen.extend(inside);
@@ -166,7 +170,8 @@ fn every_voxel_of_a_long_object_goes_where_the_reference_puts_it() {
     for scene in [sliding(primitive(&long_soup())), skinned()] {
         let prepared = prepared(scene);
         let motion = MotionSettings { time_secs: 300.5, turn_degrees: [3.0, 40.0, -7.0], ..MotionSettings::default() };
-        let frame = prepared.fold(&motion, VoxelAnchor::Centre, &Hidden::default()).expect("folds");
+        let frame =
+            prepared.fold((&motion, &prepared.pose(&motion).expect("poses")), VoxelAnchor::Centre, &Hidden::default());
         let mut in_the_grid = 0;
         for (number, part) in prepared.parts.iter().enumerate() {
             let rig = rig_part(&prepared, part, &frame, number);

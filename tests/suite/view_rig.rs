@@ -42,7 +42,7 @@ pub fn look(color: ColorBy, alpha: AlphaRule) -> Look {
 }
 
 /// A repeatable stream of numbers below `n`.
-pub struct Numbers(u64);
+pub struct Numbers(pub u64);
 
 impl Numbers {
     pub fn below(&mut self, n: u32) -> u32 {

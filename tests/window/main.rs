@@ -6,6 +6,7 @@ mod lights;
 mod node;
 mod opening;
 mod rig;
+mod surfaces;
 mod tree;
 
 use std::time::Duration;

@@ -95,7 +95,7 @@ impl<'a> Scene<'a> {
         let lights = posed_lights(&prepared.scene, &pose, lighting, &shown, emits(prepared, lighting));
         let grid = &prepared.grid;
         let occlusion = settings.cone_tracing.occlusion_distance;
-        let camera = prepared.camera(settings, options.size_px)?;
+        let camera = prepared.camera(settings, &pose, options.size_px);
         Ok(Self {
             punctual: lights.iter().map(|light| Punctual::new(light, grid)).collect(),
             emitters: Emitters::new(triangles.tree(), &readers),

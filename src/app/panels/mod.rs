@@ -1,6 +1,7 @@
 //! The panels around the view. Each is a function of exactly what it shows; what a person does
 //! comes back as commands. The helpers here give them one look.
 
+pub mod cones;
 pub mod discretization;
 pub mod filter;
 pub mod icon;
@@ -15,6 +16,7 @@ pub mod octree;
 pub mod plan;
 pub mod scene;
 mod slice;
+mod surfaces;
 pub mod table;
 pub mod timeline;
 pub mod timings;
@@ -25,11 +27,13 @@ pub mod view;
 
 use std::ops::RangeInclusive;
 
-use egui::{CollapsingHeader, DragValue, Response, RichText, Slider, SliderClamping, Ui, WidgetInfo, vec2};
+use egui::{CollapsingHeader, ComboBox, DragValue, Response, RichText, Slider, SliderClamping, Ui, WidgetInfo, vec2};
 
 use super::commands::Command;
 use super::theme;
 
+/// Of a list that is unfolded, before it scrolls.
+const LIST_HEIGHT: f32 = 400.0;
 /// Width of the names left of the controls.
 const NAME_WIDTH: f32 = 76.0;
 
@@ -87,6 +91,28 @@ pub fn choice<T: PartialEq + Copy>(
     let mut changed = false;
     control(ui, name, tip, |ui| ui.horizontal(|ui| changed = switch(ui, value, options)).response);
     changed
+}
+
+/// One of many values as a list that unfolds.
+pub fn list<T: PartialEq + Copy>(ui: &mut Ui, name: &str, tip: &str, value: &mut T, options: &[(T, &str, &str)]) {
+    let shown = options.iter().find(|option| option.0 == *value).map_or("", |option| option.1);
+    control(ui, name, tip, |ui| {
+        let list =
+            ComboBox::from_id_salt(name).width(120.0).height(LIST_HEIGHT).selected_text(shown).show_ui(ui, |ui| {
+                for &(option, name, tip) in options {
+                    ui.selectable_value(value, option, name).on_hover_text(tip);
+                }
+            });
+        list.response
+    });
+}
+
+/// Controls that cannot be used for a reason, which their tip tells.
+pub fn unless(ui: &mut Ui, reason: Option<&str>, add: impl FnOnce(&mut Ui)) {
+    let shown = ui.add_enabled_ui(reason.is_none(), add);
+    if let Some(reason) = reason {
+        shown.response.on_hover_text(reason);
+    }
 }
 
 /// A slider that leaves alone what nobody drags, also where it has more digits than are shown.

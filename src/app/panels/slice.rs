@@ -1,8 +1,8 @@
 //! The plane through the octree: where it lies, what it shows, and how it is sampled.
 
-use egui::{ComboBox, Ui};
+use egui::Ui;
 
-use super::{choice, control, slider};
+use super::{choice, control, list, slider};
 use crate::settings::{Lookup, Sampling, Slice, SliceAxis, SliceValue};
 
 pub fn ui(ui: &mut Ui, slice: &mut Slice) {
@@ -20,34 +20,30 @@ pub fn ui(ui: &mut Ui, slice: &mut Slice) {
         (SliceValue::Irradiance, "Irradiance", "Luminance of the mean irradiance, lux."),
         (SliceValue::Occupancy, "Occupancy", "Occupied share, 0 to 1."),
     ];
-    combo_ui(ui, "Value", "What the colours of the plane stand for.", &mut slice.value, &values);
-    let samplings = [
-        (Sampling::Nearest, "Nearest node", "The node a place lies in."),
-        (Sampling::Trilinear, "Trilinear", "The eight nodes around it, of one level."),
-        (Sampling::Quadrilinear, "Quadrilinear", "Trilinear on two levels, blended by the width."),
-    ];
-    combo_ui(ui, "Sampling", "How a place between nodes gets its value.", &mut slice.sampling, &samplings);
-    let lookups = [
-        (Lookup::Ranks, "Ranks", "Each by the rank of its bit in the block masks."),
-        (Lookup::BlockPointers, "Block pointers", "By forward pointers stored once a block of eight nodes."),
-        (Lookup::NodePointers, "Node pointers", "By forward pointers stored with every node, as in the paper."),
-    ];
-    let tip = "How the eight nodes are found. The values are the same, their cost is not: see the timings.";
-    combo_ui(ui, "Look-up", tip, &mut slice.lookup, &lookups);
+    list(ui, "Value", "What the colours of the plane stand for.", &mut slice.value, &values);
+    sampling_ui(ui, &mut slice.sampling);
+    lookup_ui(ui, &mut slice.lookup);
     control(ui, "Width", "Of the samples in leaf cells: wide ones read levels further up.", |ui| {
         ui.add(slider(&mut slice.width_cells, Slice::WIDTHS_CELLS).logarithmic(true).max_decimals(1))
     });
     ui.checkbox(&mut slice.logarithmic, "Logarithmic").on_hover_text("Colours go with the logarithm of the value.");
 }
 
-fn combo_ui<T: PartialEq + Copy>(ui: &mut Ui, name: &str, tip: &str, value: &mut T, options: &[(T, &str, &str)]) {
-    let shown = options.iter().find(|option| option.0 == *value).map_or("", |option| option.1);
-    control(ui, name, tip, |ui| {
-        let list = ComboBox::from_id_salt(name).width(120.0).selected_text(shown).show_ui(ui, |ui| {
-            for &(option, name, tip) in options {
-                ui.selectable_value(value, option, name).on_hover_text(tip);
-            }
-        });
-        list.response
-    });
+pub fn sampling_ui(ui: &mut Ui, sampling: &mut Sampling) {
+    let samplings = [
+        (Sampling::Nearest, "Nearest node", "The node a place lies in."),
+        (Sampling::Trilinear, "Trilinear", "The eight nodes around it, of one level."),
+        (Sampling::Quadrilinear, "Quadrilinear", "Trilinear on two levels, blended by the width."),
+    ];
+    list(ui, "Sampling", "How a place between nodes gets its value.", sampling, &samplings);
+}
+
+pub fn lookup_ui(ui: &mut Ui, lookup: &mut Lookup) {
+    let lookups = [
+        (Lookup::Ranks, "Ranks", "Each by the rank of its bit in the block masks."),
+        (Lookup::BlockPointers, "Block pointers", "By forward pointers stored once a block of eight nodes."),
+        (Lookup::NodePointers, "Node pointers", "By forward pointers stored with every node, as in the paper."),
+    ];
+    let tip = "How the eight nodes are found. The values are the same, their cost is not: see the timings.";
+    list(ui, "Look-up", tip, lookup, &lookups);
 }

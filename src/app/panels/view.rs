@@ -2,7 +2,7 @@
 
 use egui::{Slider, Ui};
 
-use super::{choice, control, slice, slider};
+use super::{choice, control, list, slice, slider, surfaces};
 use crate::app::commands::Command;
 use crate::scene::SceneCamera;
 use crate::settings::{AlphaRule, ColorBy, Look, View};
@@ -29,9 +29,13 @@ pub fn ui(ui: &mut Ui, panel: ViewPanel<'_>) -> Vec<Command> {
         View::Slice => slice::ui(ui, &mut look.slice),
         View::ShadowMap => shadow_map_ui(ui, &mut look, panel.lights),
         View::Voxels | View::Mesh | View::Ghost => surface_ui(ui, &mut look, panel.depth),
-        View::Surfaces => {}
+        View::Surfaces => surfaces::ui(ui, &mut look),
     }
-    let is_exposed = look.view == View::Voxels && look.color.is_light();
+    let is_exposed = match look.view {
+        View::Voxels => look.color.is_light(),
+        View::Surfaces => look.surface.is_light(),
+        View::Mesh | View::Ghost | View::Slice | View::ShadowMap => false,
+    };
     if is_exposed {
         exposure_ui(ui, &mut look, panel.exposure);
     }
@@ -56,6 +60,7 @@ fn view_ui(ui: &mut Ui, look: &mut Look) {
     let views = [
         (View::Slice, "Slice", "A plane through the octree, sampled, in the colours of a scale."),
         (View::ShadowMap, "Shadow map", "What a light sees: distances from it, near ones bright."),
+        (View::Surfaces, "Surfaces", "The posed triangles in direct light and in what cones bring, or a part of that."),
     ];
     choice(ui, "", "What the picture shows.", &mut look.view, &views);
 }
@@ -150,15 +155,5 @@ fn color_ui(ui: &mut Ui, look: &mut Look) {
         (ColorBy::Radiance, "Radiance", "The light that leaves a voxel, what it emits included."),
         (ColorBy::Irradiance, "Irradiance", "The light that arrives at a voxel."),
     ];
-    let shown = colors.iter().find(|color| color.0 == look.color).map_or("", |color| color.1);
-    control(ui, "Colour", "What colours a voxel.", |ui| {
-        let combo = egui::ComboBox::from_id_salt("color").width(110.0).selected_text(shown);
-        combo
-            .show_ui(ui, |ui| {
-                for (color, name, tip) in colors {
-                    ui.selectable_value(&mut look.color, color, name).on_hover_text(tip);
-                }
-            })
-            .response
-    });
+    list(ui, "Colour", "What colours a voxel.", &mut look.color, &colors);
 }

@@ -6,6 +6,7 @@
 mod cost;
 mod light;
 mod sampling;
+mod surfaces;
 
 use std::path::PathBuf;
 use std::time::{Instant, SystemTime};
@@ -20,6 +21,7 @@ use wgpu::BufferUsages;
 
 use cost::{Cost, HEADS, Samples};
 use light::LightReport;
+use surfaces::SurfaceReport;
 
 use super::options::{Common, Moment};
 use super::session::Session;
@@ -44,6 +46,9 @@ pub struct Bench {
     /// Measures pointers, light and sampling too, variant by variant
     #[arg(long)]
     lighting: bool,
+    /// Measures lit surfaces too, variant by variant
+    #[arg(long)]
+    surfaces: bool,
     /// Rebuilds before anything is measured
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     warmup: u32,
@@ -78,6 +83,9 @@ struct Report {
     /// What light costs, by variant.
     #[serde(skip_serializing_if = "Option::is_none")]
     light: Option<LightReport>,
+    /// What lit surfaces cost, by variant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    surfaces: Option<SurfaceReport>,
 }
 
 impl Bench {
@@ -113,6 +121,10 @@ impl Bench {
         } else {
             None
         };
+        let surfaces = match self.surfaces {
+            true => Some(surfaces::measure(session, &settings, (self.warmup, self.runs))?),
+            false => None,
+        };
         let info = &session.engine.gpu().info;
         Ok(Report {
             scene: session.prepared.scene.name.clone(),
@@ -129,6 +141,7 @@ impl Bench {
             kernels: kernels.into_iter().filter_map(cost).collect(),
             frame_wall: Spread::of(&frame_ms).context("no run was measured")?,
             light,
+            surfaces,
             copy,
             settings,
         })
@@ -185,10 +198,11 @@ impl Report {
         let all = self.kernels.iter().chain([&self.rebuild, &self.copy]);
         let table = output::table(&HEADS, all.map(Cost::row));
         let wall = &self.frame_wall;
-        let light = self.light.as_ref().map_or_else(String::new, |light| format!("\n\n{}", light.text()));
+        let parts = [self.light.as_ref().map(LightReport::text), self.surfaces.as_ref().map(SurfaceReport::text)];
+        let more: String = parts.into_iter().flatten().map(|part| format!("\n\n{part}")).collect();
         format!(
             "{} at {} cells of {} units, {} voxels, on {} ({}), {}\n\n{table}\n\n\
-             voxelized once in {:.0} ms; a frame by the clock: {:.1} ms ({:.1} to {:.1}){light}",
+             voxelized once in {:.0} ms; a frame by the clock: {:.1} ms ({:.1} to {:.1}){more}",
             self.scene,
             self.settings.discretization.grid,
             self.span,

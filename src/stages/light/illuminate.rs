@@ -15,7 +15,7 @@ use crate::settings::lighting::Shadows;
 /// The narrowest difference of a spot's cosines, as KHR_lights_punctual has it.
 const LEAST_CONE: f64 = 0.001;
 
-/// Mirror of `LightParams` in shaders/light/illuminate.wgsl.
+/// Mirror of `LightParams` in shaders/shared/light.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightParams {

@@ -18,7 +18,7 @@ pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 /// Wider spots are mapped like point lights.
 pub const NARROW_SPOT_RADIANS: f64 = std::f64::consts::FRAC_PI_3;
 /// Nothing nearer to a light casts a shadow.
-const NEAR_CELLS: f64 = 1.0 / 16.0;
+pub const NEAR_CELLS: f64 = 1.0 / 16.0;
 const FACES: usize = 6;
 
 /// Mirror of `ShadowFrame` in shaders/shared/shadow_frame.wgsl.

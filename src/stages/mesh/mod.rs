@@ -1,18 +1,22 @@
 //! The posed triangles on the GPU: uploaded once, moved by the vertex shader, drawn by whoever looks at
-//! them: the mesh view, and lights for their shadow maps.
+//! them: the mesh view, the surface image, and lights for their shadow maps.
 
+mod params;
 pub mod posed;
 pub mod scene;
 mod texture;
+mod vertex;
 
 use bytemuck::{Pod, Zeroable};
 
 pub use posed::PosedMesh;
-pub use scene::MeshScene;
+pub use scene::{MeshScene, Textures};
 
 pub const ALPHA_OPAQUE: u32 = 0;
 pub const ALPHA_MASK: u32 = 1;
 pub const ALPHA_BLEND: u32 = 2;
+/// Set in a packed tangent whose bitangent is −(normal × tangent).
+pub const LEFT_HANDED: u32 = 1 << 30;
 
 /// Mirror of `MeshVertex` in shaders/shared/posed_mesh.wgsl.
 #[repr(C)]
@@ -20,9 +24,10 @@ pub const ALPHA_BLEND: u32 = 2;
 pub struct MeshVertex {
     pub position: [f32; 3],
     pub normal: u32,
-    pub tex_coord: [f32; 2],
+    pub tex_coords: [f32; 4],
     pub color: u32,
-    pub pad: u32,
+    pub tangent: u32,
+    pub pad: [u32; 2],
 }
 
 /// Mirror of `VertexJoints` in shaders/shared/posed_mesh.wgsl.
@@ -31,6 +36,16 @@ pub struct MeshVertex {
 pub struct VertexJoints {
     pub joints: [u32; 2],
     pub weights: [f32; 4],
+}
+
+/// Mirror of `TextureSlot` in shaders/shared/posed_mesh.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct TextureSlot {
+    pub u: [f32; 3],
+    pub tex_coord: u32,
+    pub v: [f32; 3],
+    pub is_filled: u32,
 }
 
 /// Mirror of `DrawParams` in shaders/shared/posed_mesh.wgsl.
@@ -45,5 +60,14 @@ pub struct DrawParams {
     pub alpha_mode: u32,
     pub cutoff: f32,
     pub unlit: u32,
-    pub pad: u32,
+    pub has_tangents: u32,
+    pub emissive: [f32; 3],
+    pub normal_scale: f32,
+    pub roughness: f32,
+    pub metallic: f32,
+    pub pad: [u32; 2],
+    pub base_color_slot: TextureSlot,
+    pub metallic_roughness_slot: TextureSlot,
+    pub normal_slot: TextureSlot,
+    pub emissive_slot: TextureSlot,
 }

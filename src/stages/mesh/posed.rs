@@ -6,12 +6,13 @@ use std::collections::HashMap;
 
 use glam::DMat4;
 
+use super::DrawParams;
+use super::params::draw_params;
 use super::scene::{Batch, MeshScene, Place, material};
-use super::texture::MeshTexture;
-use super::{ALPHA_BLEND, ALPHA_MASK, ALPHA_OPAQUE, DrawParams};
+use super::texture::{Encoding, MeshTexture};
 use crate::data::octree::Slot;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, PassBuilder, RasterKernel};
-use crate::scene::{AlphaMode, Material, Motion, Object, Pose, Primitive};
+use crate::scene::{Material, Motion, Object, Pose, Primitive};
 use crate::settings::Hidden;
 use crate::stages::transform::Matrix3x4;
 
@@ -30,9 +31,12 @@ pub struct PosedDraw<'a> {
     params: DrawParams,
     batch: &'a Batch,
     joints: Option<&'a GpuBuffer>,
-    texture: &'a MeshTexture,
     matrices: &'a GpuBuffer,
     place: &'a Place,
+    base_color: &'a MeshTexture,
+    metallic_roughness: &'a MeshTexture,
+    normal: &'a MeshTexture,
+    emissive: &'a MeshTexture,
 }
 
 impl<'a> PosedMesh<'a> {
@@ -72,20 +76,24 @@ impl<'a> PosedMesh<'a> {
         let mesh = self.mesh;
         let default = Material::default();
         let material = material(&mesh.scene, primitive).unwrap_or(&default);
-        let texture = material.base_color_texture.and_then(|slot| mesh.textures.get(slot.texture)?.as_ref());
         let batch = mesh.batches.get(place.batch)?;
         // A skinned object's primitive without joints follows its node, as in voxelization.
         let is_skinned = matches!(object.motion, Motion::Skinned { .. }) && !primitive.joints.is_empty();
         let joints = batch.joints.as_ref().filter(|_| is_skinned);
         let first_matrix = if joints.is_some() { first.joints } else { first.node };
-        let params = draw_params(place, material, (number, first_matrix));
+        // Without an image white stands in: all it says is multiplied, and the normal map asks first.
+        let white = mesh.white.as_ref()?;
+        let texture = |slot, encoding| mesh.texture(slot, encoding).unwrap_or(white);
         Some(PosedDraw {
-            params,
+            params: draw_params(mesh, (primitive, place), material, (number, first_matrix)),
             batch,
             joints,
-            texture: texture.or(mesh.white.as_ref())?,
             matrices: &self.matrices,
             place,
+            base_color: texture(material.base_color_texture, Encoding::Srgb),
+            metallic_roughness: texture(material.metallic_roughness_texture, Encoding::Linear),
+            normal: texture(material.normal_texture, Encoding::Linear),
+            emissive: texture(material.emissive_texture, Encoding::Srgb),
         })
     }
 }
@@ -110,27 +118,19 @@ impl PosedDraw<'_> {
             .bind("indices", &self.batch.indices)
             .bind("vertices", &self.batch.vertices)
             .bind("matrices", self.matrices)
-            .texture("base_color", self.texture.texture.view())
-            .sampler("base_color_sampler", &self.texture.sampler)
+            .texture("base_color", self.base_color.texture.view())
+            .sampler("base_color_sampler", &self.base_color.sampler)
     }
-}
 
-fn draw_params(place: &Place, material: &Material, (object, first_matrix): (u32, u32)) -> DrawParams {
-    let (alpha_mode, cutoff) = match material.alpha_mode {
-        AlphaMode::Opaque => (ALPHA_OPAQUE, 0.0),
-        AlphaMode::Mask { cutoff } => (ALPHA_MASK, cutoff),
-        AlphaMode::Blend => (ALPHA_BLEND, 0.0),
-    };
-    DrawParams {
-        base_color: material.base_color,
-        first_index: place.first_index,
-        first_vertex: place.first_vertex,
-        first_matrix,
-        object,
-        alpha_mode,
-        cutoff,
-        unlit: u32::from(material.unlit),
-        pad: 0,
+    /// The same and the other textures of the material.
+    pub fn bind_all<'r>(&self, pass: PassBuilder<'r, RasterKernel>) -> PassBuilder<'r, RasterKernel> {
+        self.bind(pass)
+            .texture("metallic_roughness", self.metallic_roughness.texture.view())
+            .sampler("metallic_roughness_sampler", &self.metallic_roughness.sampler)
+            .texture("normal_map", self.normal.texture.view())
+            .sampler("normal_sampler", &self.normal.sampler)
+            .texture("emissive", self.emissive.texture.view())
+            .sampler("emissive_sampler", &self.emissive.sampler)
     }
 }
 

@@ -1,20 +1,17 @@
-//! A scene's triangles and base colour textures on the GPU: uploaded once, a little at a time, and
-//! only what the shown objects use.
+//! A scene's triangles and textures on the GPU: uploaded once, a little at a time, and only what the shown
+//! objects use.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use glam::{Vec2, Vec3, Vec4};
-
-use super::texture::{MeshTexture, TextureUploader};
-use super::{MeshVertex, VertexJoints};
-use crate::data::packing::{pack_normal, pack_rgba8};
+use super::texture::{Encoding, MeshTexture, TextureUploader};
+use super::vertex::{mesh_vertex, vertex_joints};
 use crate::gpu::{Gpu, GpuBuffer, GpuError};
 use crate::scene::{Material, Motion, Object, Primitive, Scene, TextureRef};
 use crate::settings::Hidden;
 
-/// Vertices of a batch, unless one primitive has more: 16 MiB, uploaded in one go.
+/// Vertices of a batch, unless one primitive has more: 24 MiB, uploaded in one go.
 const BATCH_VERTICES: usize = 1 << 19;
 
 /// What draws of some primitives read.
@@ -35,6 +32,15 @@ pub(super) struct Place {
     pub index_count: u32,
 }
 
+/// Which textures are uploaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Textures {
+    /// What the mesh view and shadow maps read.
+    BaseColor,
+    /// What the surface image reads.
+    All,
+}
+
 /// A scene that is uploaded step by step, then drawn as a [`super::PosedMesh`].
 #[derive(Debug)]
 pub struct MeshScene {
@@ -44,11 +50,11 @@ pub struct MeshScene {
     pub(super) batches: Vec<Batch>,
     /// By mesh and primitive; `None` where nothing is drawn.
     pub(super) places: Vec<Vec<Option<Place>>>,
-    /// By texture; `None` where no base colour reads it.
-    pub(super) textures: Vec<Option<MeshTexture>>,
+    /// By index into the scene's textures; those that are read both ways are there twice.
+    textures: BTreeMap<(usize, Encoding), MeshTexture>,
     pub(super) white: Option<MeshTexture>,
     /// What `waiting` was listed for; `None` before the first upload.
-    hidden: Option<Hidden>,
+    wanted: Option<(Hidden, Textures)>,
     waiting: Vec<Waiting>,
     uploader: Option<TextureUploader>,
 }
@@ -57,7 +63,7 @@ pub struct MeshScene {
 #[derive(Debug)]
 enum Waiting {
     White,
-    Texture(usize),
+    Texture(usize, Encoding),
     /// Mesh and primitive of each; all skinned or none.
     Batch {
         primitives: Vec<(usize, usize)>,
@@ -70,22 +76,28 @@ impl MeshScene {
     pub fn new(scene: Arc<Scene>, objects: Vec<(u32, Object)>) -> Self {
         Self {
             places: scene.meshes.iter().map(|mesh| vec![None; mesh.primitives.len()]).collect(),
-            textures: scene.textures.iter().map(|_| None).collect(),
+            textures: BTreeMap::new(),
             scene,
             objects,
             batches: Vec::new(),
             white: None,
-            hidden: None,
+            wanted: None,
             waiting: Vec::new(),
             uploader: None,
         }
     }
 
     /// Uploads what objects that are not hidden need, for about `budget`; true once all of it is there.
-    pub fn upload(&mut self, gpu: &Gpu, hidden: &Hidden, budget: Duration) -> Result<bool, GpuError> {
-        if self.hidden.as_ref() != Some(hidden) {
-            self.waiting = self.missing(hidden);
-            self.hidden = Some(hidden.clone());
+    pub fn upload(
+        &mut self,
+        gpu: &Gpu,
+        (hidden, textures): (&Hidden, Textures),
+        budget: Duration,
+    ) -> Result<bool, GpuError> {
+        let wanted = (hidden.clone(), textures);
+        if self.wanted.as_ref() != Some(&wanted) {
+            self.waiting = self.missing(hidden, textures);
+            self.wanted = Some(wanted);
         }
         let start = Instant::now();
         while let Some(next) = self.waiting.pop() {
@@ -98,7 +110,7 @@ impl MeshScene {
     }
 
     /// What is shown and not uploaded. A mesh that skinned and rigid objects share counts as skinned.
-    fn missing(&self, hidden: &Hidden) -> Vec<Waiting> {
+    fn missing(&self, hidden: &Hidden, textures: Textures) -> Vec<Waiting> {
         let is_skinned = |object: &Object| matches!(object.motion, Motion::Skinned { .. });
         let skinned_at_all: BTreeSet<usize> =
             self.objects.iter().filter(|(_, object)| is_skinned(object)).map(|(_, object)| object.mesh).collect();
@@ -109,19 +121,28 @@ impl MeshScene {
         if self.white.is_none() {
             waiting.push(Waiting::White);
         }
-        let textures = base_color_textures(&self.scene, meshes.iter());
-        waiting.extend(textures.into_iter().filter(|&t| self.textures[t].is_none()).map(Waiting::Texture));
+        let textures = read_textures(&self.scene, meshes.iter(), textures);
+        let missing = textures.into_iter().filter(|texture| !self.textures.contains_key(texture));
+        waiting.extend(missing.map(|(index, encoding)| Waiting::Texture(index, encoding)));
         let is_missing = |&(mesh, primitive): &(usize, usize)| self.places[mesh][primitive].is_none();
         waiting.extend(batches(&self.scene, skinned, true, is_missing));
         waiting.extend(batches(&self.scene, rigid, false, is_missing));
         waiting
     }
 
+    /// `None` where the slot is empty, its image has no texels, or it is not uploaded.
+    pub(super) fn texture(&self, slot: Option<TextureRef>, encoding: Encoding) -> Option<&MeshTexture> {
+        self.textures.get(&(slot?.texture, encoding))
+    }
+
     fn upload_one(&mut self, gpu: &Gpu, next: Waiting) -> Result<(), GpuError> {
         let uploader = self.uploader.get_or_insert_with(|| TextureUploader::new(gpu));
         match next {
             Waiting::White => self.white = Some(uploader.white(gpu)?),
-            Waiting::Texture(index) => self.textures[index] = Some(uploader.upload(gpu, &self.scene.textures[index])?),
+            Waiting::Texture(index, encoding) => {
+                let texture = uploader.upload(gpu, &self.scene.textures[index], encoding)?;
+                self.textures.insert((index, encoding), texture);
+            }
             Waiting::Batch { primitives, skinned } => self.upload_batch(gpu, &primitives, skinned)?,
         }
         Ok(())
@@ -137,8 +158,7 @@ impl MeshScene {
                 first_index: indices.len() as u32,
                 index_count: 3 * primitive.triangles.len() as u32,
             });
-            let slot = material(&self.scene, primitive).and_then(|m| m.base_color_texture);
-            vertices.extend((0..primitive.positions.len()).map(|vertex| mesh_vertex(primitive, vertex, slot)));
+            vertices.extend((0..primitive.positions.len()).map(|vertex| mesh_vertex(primitive, vertex)));
             indices.extend(primitive.triangles.iter().flatten());
             if skinned {
                 joints.extend((0..primitive.positions.len()).map(|vertex| vertex_joints(primitive, vertex)));
@@ -158,12 +178,25 @@ pub(super) fn material<'a>(scene: &'a Scene, primitive: &Primitive) -> Option<&'
     primitive.material.and_then(|index| scene.materials.get(index))
 }
 
-fn base_color_textures<'a>(scene: &Scene, meshes: impl Iterator<Item = &'a usize>) -> BTreeSet<usize> {
+fn read_textures<'a>(
+    scene: &Scene,
+    meshes: impl Iterator<Item = &'a usize>,
+    textures: Textures,
+) -> BTreeSet<(usize, Encoding)> {
     let primitives = meshes.flat_map(|&mesh| &scene.meshes[mesh].primitives);
-    let slots = primitives.filter_map(|primitive| material(scene, primitive)?.base_color_texture);
+    let slots = primitives.filter_map(|primitive| material(scene, primitive)).flat_map(|material| {
+        let all = [
+            (material.base_color_texture, Encoding::Srgb),
+            (material.emissive_texture, Encoding::Srgb),
+            (material.metallic_roughness_texture, Encoding::Linear),
+            (material.normal_texture, Encoding::Linear),
+        ];
+        let count = if textures == Textures::All { all.len() } else { 1 };
+        all.into_iter().take(count).filter_map(|(slot, encoding)| Some((slot?.texture, encoding)))
+    });
     let has_texels =
-        |index: &usize| scene.textures.get(*index).is_some_and(|t| t.image.width() > 0 && t.image.height() > 0);
-    slots.map(|slot| slot.texture).filter(has_texels).collect()
+        |index: usize| scene.textures.get(index).is_some_and(|t| t.image.width() > 0 && t.image.height() > 0);
+    slots.filter(|(index, _)| has_texels(*index)).collect()
 }
 
 fn batches(
@@ -190,25 +223,4 @@ fn batches(
         }
     }
     batches.into_iter().map(move |(_, primitives)| Waiting::Batch { primitives, skinned })
-}
-
-fn mesh_vertex(primitive: &Primitive, vertex: usize, slot: Option<TextureRef>) -> MeshVertex {
-    let tex_coord = |slot: TextureRef| Some(slot.uv(*primitive.tex_coords.get(slot.tex_coord)?.get(vertex)?));
-    let color = primitive.colors.get(vertex).copied().unwrap_or(Vec4::ONE);
-    MeshVertex {
-        position: primitive.positions[vertex].to_array(),
-        normal: pack_normal(primitive.normals.get(vertex).copied().unwrap_or(Vec3::ZERO).as_dvec3()),
-        tex_coord: slot.and_then(tex_coord).unwrap_or(Vec2::ZERO).to_array(),
-        color: pack_rgba8(color.to_array().map(f64::from)),
-        pad: 0,
-    }
-}
-
-/// All zero for a primitive that has no joints.
-fn vertex_joints(primitive: &Primitive, vertex: usize) -> VertexJoints {
-    let joints = primitive.joints.get(vertex).copied().unwrap_or_default().map(u32::from);
-    VertexJoints {
-        joints: [joints[0] | joints[1] << 16, joints[2] | joints[3] << 16],
-        weights: primitive.weights.get(vertex).copied().unwrap_or_default(),
-    }
 }

@@ -1,11 +1,27 @@
-//! Base colour images as GPU textures, with mip levels that the GPU averages in linear light.
+//! Images as GPU textures, with mip levels that the GPU averages: colours in linear light.
 
 use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
 
 use crate::gpu::{Gpu, GpuError, GpuTexture};
 use crate::scene::{Texture, Wrap};
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// What the bytes of an image say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Encoding {
+    /// Colours.
+    Srgb,
+    /// Normals, roughness, metalness.
+    Linear,
+}
+
+impl Encoding {
+    fn format(self) -> wgpu::TextureFormat {
+        match self {
+            Self::Srgb => wgpu::TextureFormat::Rgba8UnormSrgb,
+            Self::Linear => wgpu::TextureFormat::Rgba8Unorm,
+        }
+    }
+}
 
 /// An image and how it is read.
 #[derive(Clone, Debug)]
@@ -14,32 +30,43 @@ pub(super) struct MeshTexture {
     pub sampler: wgpu::Sampler,
 }
 
-/// Keeps the pipeline that halves images.
+/// Keeps the pipelines that halve images.
 #[derive(Debug)]
 pub(super) struct TextureUploader {
-    blitter: TextureBlitter,
+    srgb: TextureBlitter,
+    linear: TextureBlitter,
 }
 
 impl TextureUploader {
     pub fn new(gpu: &Gpu) -> Self {
-        let builder = TextureBlitterBuilder::new(&gpu.device, FORMAT).sample_type(wgpu::FilterMode::Linear);
-        Self { blitter: builder.build() }
+        let blitter = |encoding: Encoding| {
+            let builder = TextureBlitterBuilder::new(&gpu.device, encoding.format());
+            builder.sample_type(wgpu::FilterMode::Linear).build()
+        };
+        Self { srgb: blitter(Encoding::Srgb), linear: blitter(Encoding::Linear) }
     }
 
     /// One white texel, for materials without an image.
     pub fn white(&self, gpu: &Gpu) -> Result<MeshTexture, GpuError> {
-        let texture = self.filled(gpu, "white", [1, 1], &[255; 4])?;
+        let texture = self.filled(gpu, "white", ([1, 1], &[255; 4]), Encoding::Linear)?;
         Ok(MeshTexture { texture, sampler: sampler(gpu, [Wrap::Repeat; 2], true) })
     }
 
     /// The error names the image where it is larger than the device allows.
-    pub fn upload(&self, gpu: &Gpu, source: &Texture) -> Result<MeshTexture, GpuError> {
+    pub fn upload(&self, gpu: &Gpu, source: &Texture, encoding: Encoding) -> Result<MeshTexture, GpuError> {
         let label = format!("image {}", source.name);
-        let texture = self.filled(gpu, &label, [source.image.width(), source.image.height()], &source.image)?;
+        let image = ([source.image.width(), source.image.height()], source.image.as_raw().as_slice());
+        let texture = self.filled(gpu, &label, image, encoding)?;
         Ok(MeshTexture { texture, sampler: sampler(gpu, source.wrap, source.nearest) })
     }
 
-    fn filled(&self, gpu: &Gpu, label: &str, [width, height]: [u32; 2], rgba8: &[u8]) -> Result<GpuTexture, GpuError> {
+    fn filled(
+        &self,
+        gpu: &Gpu,
+        label: &str,
+        ([width, height], rgba8): ([u32; 2], &[u8]),
+        encoding: Encoding,
+    ) -> Result<GpuTexture, GpuError> {
         use wgpu::TextureUsages as Usage;
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         let texture = gpu.texture(&wgpu::TextureDescriptor {
@@ -48,18 +75,22 @@ impl TextureUploader {
             mip_level_count: width.max(height).checked_ilog2().unwrap_or(0) + 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
+            format: encoding.format(),
             usage: Usage::TEXTURE_BINDING | Usage::COPY_DST | Usage::RENDER_ATTACHMENT,
             view_formats: &[],
         })?;
         let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
         gpu.queue.write_texture(texture.raw().as_image_copy(), rgba8, layout, size);
-        self.halve(gpu, texture.raw());
+        self.halve(gpu, texture.raw(), encoding);
         Ok(texture)
     }
 
     /// Fills every level from the one before.
-    fn halve(&self, gpu: &Gpu, texture: &wgpu::Texture) {
+    fn halve(&self, gpu: &Gpu, texture: &wgpu::Texture, encoding: Encoding) {
+        let blitter = match encoding {
+            Encoding::Srgb => &self.srgb,
+            Encoding::Linear => &self.linear,
+        };
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("mip levels") });
         let level = |base_mip_level: u32| {
@@ -70,7 +101,7 @@ impl TextureUploader {
             })
         };
         for target in 1..texture.mip_level_count() {
-            self.blitter.copy(&gpu.device, &mut encoder, &level(target - 1), &level(target));
+            blitter.copy(&gpu.device, &mut encoder, &level(target - 1), &level(target));
         }
         gpu.queue.submit([encoder.finish()]);
     }
@@ -84,7 +115,7 @@ fn sampler(gpu: &Gpu, wrap: [Wrap; 2], nearest: bool) -> wgpu::Sampler {
     });
     let filter = if nearest { wgpu::FilterMode::Nearest } else { wgpu::FilterMode::Linear };
     gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some("base colour"),
+        label: Some("mesh texture"),
         address_mode_u: address[0],
         address_mode_v: address[1],
         mag_filter: filter,

@@ -64,13 +64,22 @@ pub fn camera_from_world(camera: &OrbitCamera, grid: &Grid) -> DMat4 {
     DMat4::from_scale(DVec3::splat(1.0 / grid.span)) * camera.camera_from_world()
 }
 
+/// From that space to the picture's; depth is reversed.
+pub fn clip_from_camera(camera: &OrbitCamera, grid: &Grid, size_px: [u32; 2]) -> DMat4 {
+    let projection = camera.projection(f64::from(size_px[0]) / f64::from(size_px[1]));
+    projection * DMat4::from_scale(DVec3::splat(grid.span))
+}
+
+/// The camera's axes in the world, a column each, padded to four.
+pub fn padded_axes(camera: &OrbitCamera) -> [[f32; 4]; 3] {
+    let axes = DMat3::from_mat4(camera.world_from_camera());
+    [0, 1, 2].map(|column| axes.col(column).as_vec3().extend(0.0).to_array())
+}
+
 fn mesh_params(seen: MeshView<'_>, size_px: [u32; 2]) -> MeshParams {
-    let projection = seen.camera.projection(f64::from(size_px[0]) / f64::from(size_px[1]));
-    let clip_from_camera = projection * DMat4::from_scale(DVec3::splat(seen.grid.span));
-    let axes = DMat3::from_mat4(seen.camera.world_from_camera());
     MeshParams {
-        clip_from_camera: clip_from_camera.as_mat4().to_cols_array_2d(),
-        world_from_camera: [0, 1, 2].map(|column| axes.col(column).as_vec3().extend(0.0).to_array()),
+        clip_from_camera: clip_from_camera(seen.camera, seen.grid, size_px).as_mat4().to_cols_array_2d(),
+        world_from_camera: padded_axes(seen.camera),
     }
 }
 

@@ -14,6 +14,8 @@ pub mod palette;
 pub mod picture;
 pub mod show_shadow;
 pub mod show_shadow_ref;
+pub mod show_surfaces;
+pub mod show_surfaces_ref;
 pub mod slice;
 pub mod slice_ref;
 

@@ -1,0 +1,34 @@
+//! One vertex as the shaders read it.
+
+use glam::{Vec2, Vec3, Vec4};
+
+use super::{LEFT_HANDED, MeshVertex, VertexJoints};
+use crate::data::packing::{pack_normal, pack_rgba8};
+use crate::scene::Primitive;
+
+/// Zero stands in for what the primitive does not have, white for its colour.
+pub(super) fn mesh_vertex(primitive: &Primitive, vertex: usize) -> MeshVertex {
+    let [first, second] = [0, 1].map(|set| primitive.tex_coords[set].get(vertex).copied().unwrap_or(Vec2::ZERO));
+    let color = primitive.colors.get(vertex).copied().unwrap_or(Vec4::ONE);
+    MeshVertex {
+        position: primitive.positions[vertex].to_array(),
+        normal: pack_normal(primitive.normals.get(vertex).copied().unwrap_or(Vec3::ZERO).as_dvec3()),
+        tex_coords: [first.x, first.y, second.x, second.y],
+        color: pack_rgba8(color.to_array().map(f64::from)),
+        tangent: primitive.tangents.get(vertex).copied().map_or(0, pack_tangent),
+        pad: [0; 2],
+    }
+}
+
+fn pack_tangent(tangent: Vec4) -> u32 {
+    pack_normal(tangent.truncate().as_dvec3()) | if tangent.w < 0.0 { LEFT_HANDED } else { 0 }
+}
+
+/// All zero for a primitive that has no joints.
+pub(super) fn vertex_joints(primitive: &Primitive, vertex: usize) -> VertexJoints {
+    let joints = primitive.joints.get(vertex).copied().unwrap_or_default().map(u32::from);
+    VertexJoints {
+        joints: [joints[0] | joints[1] << 16, joints[2] | joints[3] << 16],
+        weights: primitive.weights.get(vertex).copied().unwrap_or_default(),
+    }
+}

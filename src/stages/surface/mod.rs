@@ -1,0 +1,69 @@
+//! What the camera sees, the light that reaches it straight from the lights, and what is shown of all light
+//! (section 4.5).
+//!
+//! ```text
+//! posed triangles ─► draw (surface image) ─► emission ─► direct or direct_march (a light each) ─► compose ─► sum_luminance
+//!                          └─► cones: diffuse, specular ────────────────────────────────────────▲   └─► view::show_surfaces
+//! ```
+//!
+//! Radiance is kept in a buffer of four floats a pixel, rows from the top: linear RGB in nits, and 1 where
+//! the camera sees something, else 0.
+
+pub mod brdf_ref;
+pub mod compose;
+pub mod compose_ref;
+pub mod direct;
+pub mod direct_march;
+pub mod direct_march_ref;
+pub mod direct_ref;
+pub mod draw;
+pub mod emission;
+pub mod emission_ref;
+pub mod sum_luminance;
+
+use crate::data::surface_image::SurfaceImage;
+use crate::gpu::{GpuBuffer, Kernel, PassBuilder};
+use crate::stages::view::ViewParams;
+
+/// Reflectance at normal incidence of what is no metal (glTF 2.0, appendix B.3.3).
+pub const DIELECTRIC_REFLECTANCE: f64 = 0.04;
+/// Smoother surfaces count as this smooth: a point light's highlight on them would be smaller than any pixel.
+pub const LEAST_ROUGHNESS: f64 = 0.045;
+/// Cosine of a shading normal to the eye, which sees the surface after all.
+pub const LEAST_EYE_COSINE: f64 = 0.01;
+/// From a surface to where its shadow ray starts, beyond what the shadow map's texels need: f32 distances of
+/// 1024 cells are off by a tenth of it.
+pub const SHADOW_OFFSET_CELLS: f64 = 1.0 / 512.0;
+
+/// What the camera sees, and where the light that reaches it is summed.
+#[derive(Clone, Copy, Debug)]
+pub struct Lit<'a> {
+    pub image: &'a SurfaceImage,
+    /// Of the image's size.
+    pub view: &'a ViewParams,
+    /// Four floats a pixel.
+    pub direct: &'a GpuBuffer,
+}
+
+impl Lit<'_> {
+    fn bind<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
+        pass.uniform("view", self.view)
+            .texture("surface_near", self.image.near.view())
+            .texture("surface_stuff", self.image.stuff.view())
+            .bind("direct", self.direct)
+    }
+
+    /// Pixels in tiles of 8 x 8 (shaders/shared/view.wgsl): a thread each.
+    fn tiled_threads(&self) -> u64 {
+        self.image.size_px().into_iter().map(|side| u64::from(side.next_multiple_of(8))).product()
+    }
+
+    /// Of the texels, and of a sum that is written `times` times.
+    fn bytes(&self, times: u64) -> u64 {
+        (SURFACE_BYTES + times * RADIANCE_BYTES) * self.image.size_px().map(u64::from).iter().product::<u64>()
+    }
+}
+
+/// Of a pixel.
+pub const RADIANCE_BYTES: u64 = 16;
+const SURFACE_BYTES: u64 = 32;

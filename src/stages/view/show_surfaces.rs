@@ -1,0 +1,81 @@
+//! The picture of what was composed: light by exposure and tone curve, depth by a scale, the rest as it is.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{Palette, Picture, ViewParams};
+use crate::data::surface_image::SurfaceImage;
+use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::settings::{SurfaceView, ToneCurve};
+
+pub const SHOWS_VALUE: u32 = 0;
+pub const SHOWS_LIGHT: u32 = 1;
+pub const SHOWS_NORMAL: u32 = 2;
+pub const SHOWS_DEPTH: u32 = 3;
+
+pub const CURVE_LINEAR: u32 = 0;
+pub const CURVE_REINHARD: u32 = 1;
+pub const CURVE_ACES: u32 = 2;
+
+/// x (A·x + B) / (x (C·x + D) + E) (Narkowicz 2015).
+pub const ACES: [f64; 5] = [2.51, 0.03, 2.43, 0.59, 0.14];
+
+/// Mirror of `ShowSurfacesParams` in shaders/view/show_surfaces.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct ShowSurfacesParams {
+    pub exposure: f32,
+    /// Ends of the scale of depths, scene units.
+    pub least: f32,
+    pub most: f32,
+    /// 1: where no surface is, the sky shines.
+    pub sky: u32,
+}
+
+/// `shown`: what `surface::compose` wrote.
+pub fn record(
+    gpu: &Gpu,
+    frame: &mut Recorder,
+    (surfaces, shown): (&SurfaceImage, &GpuBuffer),
+    (shown_as, curve): (SurfaceView, ToneCurve),
+    (view, palette, params): (&ViewParams, &Palette, &ShowSurfacesParams),
+    picture: &Picture,
+) {
+    let constants = [("SHOWS", f64::from(shows(shown_as))), ("CURVE", f64::from(curve_number(curve)))];
+    frame
+        .pass(&gpu.kernel("view/show_surfaces.wgsl", &constants))
+        .uniform("view", view)
+        .uniform("params", params)
+        .uniform("palette", palette)
+        .texture("surface_near", surfaces.near.view())
+        .bind("shown", shown)
+        .texture("picture", picture.color.view())
+        .texture("depth", picture.distance.view())
+        .dispatch(picture.tiled_threads());
+}
+
+fn shows(shown_as: SurfaceView) -> u32 {
+    match shown_as {
+        SurfaceView::Normal => SHOWS_NORMAL,
+        SurfaceView::Depth => SHOWS_DEPTH,
+        light if light.is_light() => SHOWS_LIGHT,
+        _ => SHOWS_VALUE,
+    }
+}
+
+fn curve_number(curve: ToneCurve) -> u32 {
+    match curve {
+        ToneCurve::Linear => CURVE_LINEAR,
+        ToneCurve::Reinhard => CURVE_REINHARD,
+        ToneCurve::Aces => CURVE_ACES,
+    }
+}
+
+/// What a curve makes of an exposed channel from 0; the result may exceed 1.
+pub fn tone_mapped(curve: ToneCurve, x: f64) -> f64 {
+    let [a, b, c, d, e] = ACES;
+    match curve {
+        ToneCurve::Linear => x,
+        ToneCurve::Reinhard => x / (1.0 + x),
+        ToneCurve::Aces => x * (a * x + b) / (x * (c * x + d) + e),
+    }
+}

@@ -1,0 +1,177 @@
+//! The plan's rules of lit surfaces, one by one: only what the picture calls for.
+
+use octolume::plan::{Changes, FramePlan, Pass, SceneFacts, State, plan};
+use octolume::settings::lighting::Shadows;
+use octolume::settings::{Lookup, Settings, SurfaceView, View};
+
+use crate::plan::{FIRST, RIGID, STILL, reason, running};
+
+const SUN: SceneFacts = SceneFacts { lights: 1, ..RIGID };
+const GLOSSY: SceneFacts = SceneFacts { glossy: true, ..SUN };
+/// Nothing changed since a frame that showed the same surfaces in the same light.
+const SAME: Changes = Changes {
+    shadow_maps: false,
+    lighting: false,
+    surfaces: false,
+    direct: false,
+    diffuse: false,
+    specular: false,
+    ..STILL
+};
+const CONES: [Pass; 5] =
+    [Pass::TraceDiffuse, Pass::FilterDiffuse, Pass::ListGlossyTiles, Pass::TraceSpecular, Pass::FilterSpecular];
+const SHOWN: [Pass; 3] = [Pass::ComposeSurfaces, Pass::MeasureExposure, Pass::ShowSurfaces];
+
+fn showing(surface: SurfaceView) -> Settings {
+    let mut settings = Settings::default();
+    settings.look.view = View::Surfaces;
+    settings.look.surface = surface;
+    settings
+}
+
+fn builds_octree(plan: &FramePlan) -> bool {
+    plan.runs(Pass::MarkLeaves)
+}
+
+#[test]
+fn another_view_draws_no_surface() {
+    let plan = plan(&GLOSSY, &FIRST, &Settings::default());
+    for pass in [Pass::DrawSurfaces, Pass::EmitSurfaces, Pass::LightSurfaces, Pass::LightByMarching]
+        .into_iter()
+        .chain(CONES)
+        .chain(SHOWN)
+    {
+        assert_eq!(reason(&plan, pass), (State::Skip, "another view is shown"));
+    }
+}
+
+#[test]
+fn without_light_nothing_is_traced_and_no_octree_built() {
+    let plan = plan(&SceneFacts { glossy: true, ..RIGID }, &FIRST, &showing(SurfaceView::Final));
+    assert_eq!(reason(&plan, Pass::TraceDiffuse), (State::Skip, "no light and no emission"));
+    assert_eq!(reason(&plan, Pass::TraceSpecular), (State::Skip, "no light and no emission"));
+    assert_eq!(reason(&plan, Pass::MarkLeaves), (State::Skip, "no cone and no shadow asks the octree"));
+    assert_eq!(running(&plan), [&[Pass::DrawSurfaces, Pass::EmitSurfaces], &SHOWN[..]].concat());
+}
+
+#[test]
+fn a_sun_on_matte_surfaces_calls_for_diffuse_cones_alone() {
+    let of = |scene: &SceneFacts| {
+        let plan = plan(scene, &FIRST, &showing(SurfaceView::Final));
+        CONES.into_iter().filter(|pass| plan.runs(*pass)).collect::<Vec<_>>()
+    };
+    assert_eq!(of(&SUN), [Pass::TraceDiffuse, Pass::FilterDiffuse]);
+    assert_eq!(of(&GLOSSY), [Pass::TraceDiffuse, Pass::FilterDiffuse, Pass::ListGlossyTiles, Pass::TraceSpecular]);
+    let matte = plan(&SUN, &FIRST, &showing(SurfaceView::Specular));
+    assert_eq!(reason(&matte, Pass::TraceSpecular), (State::Skip, "no glossy surface in the scene"));
+}
+
+#[test]
+fn cones_that_are_off_are_not_traced() {
+    let mut settings = showing(SurfaceView::Final);
+    settings.cone_tracing.diffuse = false;
+    settings.cone_tracing.specular = false;
+    let dark = plan(&GLOSSY, &FIRST, &settings);
+    assert_eq!(reason(&dark, Pass::TraceDiffuse), (State::Skip, "diffuse cones are off"));
+    assert_eq!(reason(&dark, Pass::TraceSpecular), (State::Skip, "the specular cone is off"));
+    assert!(CONES.into_iter().all(|pass| !dark.runs(pass)) && !builds_octree(&dark));
+    assert!(dark.runs(Pass::DrawShadows) && dark.runs(Pass::LightSurfaces), "direct light is looked at");
+}
+
+#[test]
+fn occlusion_alone_reads_opacity_and_no_light() {
+    let mut settings = showing(SurfaceView::Final);
+    settings.cone_tracing.diffuse = false;
+    settings.cone_tracing.specular = false;
+    settings.cone_tracing.ambient_occlusion = true;
+    assert!(!plan(&SUN, &FIRST, &settings).runs(Pass::TraceDiffuse), "there is no sky to occlude");
+    settings.lighting.sky_nits = [1.0; 3];
+    let guessed = plan(&SUN, &FIRST, &settings);
+    assert!(guessed.runs(Pass::TraceDiffuse) && guessed.runs(Pass::AverageLight));
+    assert_eq!(reason(&guessed, Pass::Illuminate), (State::Skip, "only opacity is looked at"));
+    assert_eq!(reason(&guessed, Pass::GatherSky), (State::Skip, "only opacity is looked at"));
+    let shown = plan(&SUN, &FIRST, &showing(SurfaceView::Ao));
+    assert!(shown.runs(Pass::TraceDiffuse) && !shown.runs(Pass::LightSurfaces) && !shown.runs(Pass::DrawShadows));
+    assert_eq!(reason(&shown, Pass::MeasureExposure), (State::Skip, "no light is shown"));
+}
+
+#[test]
+fn each_part_calls_for_what_it_shows() {
+    use Pass::{DrawSurfaces, LightSurfaces, TraceDiffuse, TraceSpecular};
+    for (surface, expected) in [
+        (SurfaceView::Final, &[DrawSurfaces, LightSurfaces, TraceDiffuse, TraceSpecular][..]),
+        (SurfaceView::Direct, &[DrawSurfaces, LightSurfaces]),
+        (SurfaceView::Diffuse, &[DrawSurfaces, TraceDiffuse]),
+        // What is not glossy reflects what diffuse cones see.
+        (SurfaceView::Specular, &[DrawSurfaces, TraceDiffuse, TraceSpecular]),
+        (SurfaceView::Irradiance, &[DrawSurfaces, TraceDiffuse]),
+        (SurfaceView::Albedo, &[DrawSurfaces]),
+        (SurfaceView::Depth, &[DrawSurfaces]),
+    ] {
+        let plan = plan(&GLOSSY, &FIRST, &showing(surface));
+        let ran =
+            [DrawSurfaces, LightSurfaces, TraceDiffuse, TraceSpecular].into_iter().filter(|pass| plan.runs(*pass));
+        assert_eq!(ran.collect::<Vec<_>>(), expected, "{surface:?}");
+        assert_eq!(builds_octree(&plan), plan.runs(TraceDiffuse) || plan.runs(TraceSpecular), "{surface:?}");
+    }
+}
+
+#[test]
+fn a_moved_camera_draws_and_traces_again_and_lights_no_voxel() {
+    let changed = Changes { view: true, surfaces: true, ..SAME };
+    let expected = [
+        &[Pass::DrawSurfaces, Pass::EmitSurfaces, Pass::LightSurfaces, Pass::TraceDiffuse, Pass::FilterDiffuse],
+        &[Pass::ListGlossyTiles, Pass::TraceSpecular][..],
+        &SHOWN,
+    ];
+    assert_eq!(running(&plan(&GLOSSY, &changed, &showing(SurfaceView::Final))), expected.concat());
+    assert!(plan(&GLOSSY, &SAME, &showing(SurfaceView::Final)).is_idle(), "all still");
+}
+
+#[test]
+fn a_changed_light_draws_no_surface() {
+    let changed = Changes { lighting: true, direct: true, ..SAME };
+    let plan = plan(&SUN, &changed, &showing(SurfaceView::Final));
+    assert_eq!(reason(&plan, Pass::DrawSurfaces), (State::Reuse, "camera and objects unmoved"));
+    let expected = [
+        &[Pass::Illuminate, Pass::InjectLight, Pass::AverageLight, Pass::EmitSurfaces, Pass::LightSurfaces][..],
+        &[Pass::TraceDiffuse, Pass::FilterDiffuse],
+        &SHOWN,
+    ];
+    assert_eq!(running(&plan), expected.concat());
+}
+
+#[test]
+fn pixels_that_share_no_cones_need_no_filter() {
+    let mut settings = showing(SurfaceView::Final);
+    settings.cone_tracing.half_resolution = false;
+    assert!(plan(&GLOSSY, &FIRST, &settings).runs(Pass::FilterDiffuse), "a pattern is shared");
+    settings.cone_tracing.pattern_px = 1;
+    let whole = plan(&GLOSSY, &FIRST, &settings);
+    assert_eq!(reason(&whole, Pass::FilterDiffuse), (State::Skip, "every pixel has all its cones"));
+    assert_eq!(reason(&whole, Pass::FilterSpecular), (State::Skip, "every pixel has its cone"));
+    settings.cone_tracing.indirect_px = Some([1280, 720]);
+    let paper = plan(&GLOSSY, &FIRST, &settings);
+    assert!(paper.runs(Pass::FilterDiffuse) && paper.runs(Pass::FilterSpecular));
+}
+
+#[test]
+fn marched_shadows_and_pointers_ask_the_octree() {
+    let mut settings = showing(SurfaceView::Direct);
+    assert!(!builds_octree(&plan(&SUN, &FIRST, &settings)));
+    settings.lighting.shadows = Shadows::March;
+    let marched = plan(&SUN, &FIRST, &settings);
+    assert!(builds_octree(&marched) && marched.runs(Pass::LightByMarching));
+    assert!(!marched.runs(Pass::DrawShadows) && !marched.runs(Pass::AverageLight));
+    settings.look.surface = SurfaceView::Diffuse;
+    settings.cone_tracing.lookup = Lookup::BlockPointers;
+    assert!(plan(&SUN, &FIRST, &settings).runs(Pass::LinkNodes));
+}
+
+#[test]
+fn a_set_exposure_is_not_measured() {
+    let mut settings = showing(SurfaceView::Final);
+    settings.look.exposure_stops = Some(-3.0);
+    let plan = plan(&SUN, &FIRST, &settings);
+    assert_eq!(reason(&plan, Pass::MeasureExposure), (State::Skip, "the exposure is set"));
+}
