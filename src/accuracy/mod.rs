@@ -4,9 +4,11 @@
 //! that only moved voxels reached.
 
 mod cut_outs;
+pub mod path_tracer;
 pub mod posed_triangles;
+pub mod ray_tree;
 pub mod shadows;
-mod triangle;
+pub mod triangle;
 
 use serde::Serialize;
 
