@@ -13,6 +13,8 @@ mod animation;
 mod averaging;
 mod builtin;
 mod camera;
+mod cone_light;
+mod cone_rig;
 mod cones;
 mod device;
 mod disk_cache;
