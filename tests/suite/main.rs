@@ -14,6 +14,8 @@ mod averaging;
 mod builtin;
 mod camera;
 mod compose;
+mod cone_light;
+mod cone_rig;
 mod cones;
 mod device;
 mod direct_light;
