@@ -1,7 +1,7 @@
 //! What samples add up to: a sum a pixel for every term, and how far the mean may be off.
 //!
 //! ```text
-//! pixel  light 5 x RGB | open | coverage | squares of each term's luminance 7    24 x f64, row-major
+//! pixel  light 5 x RGB | open | coverage | squares of each term's luminance 8    25 x f64, row-major
 //! ```
 
 use bytemuck::{Pod, Zeroable};
@@ -9,6 +9,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use crate::color::luminance;
+use crate::settings::{Lighting, SurfaceView};
 
 /// A part of the light that reaches the eye, linear RGB, nits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -25,20 +26,42 @@ pub enum Term {
     SpecularAll,
     /// Share of the hemisphere without anything near, cosine-weighted, in all channels; 0 where nothing is.
     Ao,
-    /// Direct, all diffuse, all specular.
-    Final,
+    /// Direct, and the first bounce of both lobes.
+    FinalFirst,
+    /// Direct, and all bounces of both lobes.
+    FinalAll,
 }
 
 impl Term {
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Direct,
         Self::DiffuseFirst,
         Self::DiffuseAll,
         Self::SpecularFirst,
         Self::SpecularAll,
         Self::Ao,
-        Self::Final,
+        Self::FinalFirst,
+        Self::FinalAll,
     ];
+
+    /// What a view of surfaces shows where light goes on `bounces` times in the octree: the first bounce with
+    /// none, all of them with any. `None` for what is no light of surfaces.
+    pub fn of(part: SurfaceView, bounces: u32) -> Option<Self> {
+        let is_first = bounces == 0;
+        let either = |first, all| Some(if is_first { first } else { all });
+        match part {
+            SurfaceView::Final => either(Self::FinalFirst, Self::FinalAll),
+            SurfaceView::Direct => Some(Self::Direct),
+            SurfaceView::Diffuse => either(Self::DiffuseFirst, Self::DiffuseAll),
+            SurfaceView::Specular => either(Self::SpecularFirst, Self::SpecularAll),
+            SurfaceView::Ao => Some(Self::Ao),
+            SurfaceView::Irradiance
+            | SurfaceView::Albedo
+            | SurfaceView::Normal
+            | SurfaceView::Depth
+            | SurfaceView::Roughness => None,
+        }
+    }
 }
 
 const LIGHTS: usize = 5;
@@ -64,11 +87,11 @@ impl Sample {
     }
 
     fn of(&self, term: Term) -> DVec3 {
+        let sum = |parts: [Term; 3]| parts.into_iter().map(|part| self.light[part as usize]).sum();
         match term {
             Term::Ao => DVec3::splat(self.open),
-            Term::Final => {
-                [Term::Direct, Term::DiffuseAll, Term::SpecularAll].into_iter().map(|part| self.of(part)).sum()
-            }
+            Term::FinalFirst => sum([Term::Direct, Term::DiffuseFirst, Term::SpecularFirst]),
+            Term::FinalAll => sum([Term::Direct, Term::DiffuseAll, Term::SpecularAll]),
             _ => self.light[term as usize],
         }
     }
@@ -147,6 +170,20 @@ impl Film {
     pub fn image(&self, term: Term) -> Vec<[f32; 3]> {
         let mean = |(sums, samples): (&PixelSums, f64)| (sums.sum(term) / samples.max(1.0)).as_vec3().to_array();
         self.counted().map(mean).collect()
+    }
+
+    /// What the view of surfaces shows under `lighting`, as the engine reads it: linear RGB and the share
+    /// where a surface is; beside surfaces the sky, where that view shows it. `None`: see [`Term::of`].
+    pub fn shown(&self, part: SurfaceView, lighting: &Lighting) -> Option<Vec<[f32; 4]>> {
+        let term = Term::of(part, lighting.bounces)?;
+        let shows_sky = matches!(part, SurfaceView::Final | SurfaceView::Direct);
+        let sky_nits = DVec3::from_array(if shows_sky { lighting.sky_nits } else { [0.0; 3] });
+        let pixel = |(sums, samples): (&PixelSums, f64)| {
+            let coverage = sums.coverage / samples.max(1.0);
+            let light = sums.sum(term) / samples.max(1.0) + sky_nits * (1.0 - coverage);
+            light.extend(coverage).as_vec4().to_array()
+        };
+        Some(self.counted().map(pixel).collect())
     }
 
     /// Share of each pixel where a surface is seen.
