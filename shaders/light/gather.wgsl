@@ -8,6 +8,14 @@
 #import shared/cone_set.wgsl
 #import shared/packing.wgsl
 
+struct ConeParams {
+    // Radiance behind all that is in the grid, nits.
+    sky: vec3<f32>,
+    // Cones over a hemisphere.
+    count: u32,
+    shape: ConeShape,
+}
+
 @group(0) @binding(0) var<uniform> octree: OctreeParams;
 @group(0) @binding(1) var<uniform> cone: ConeParams;
 @group(0) @binding(2) var<storage, read> leaf_bits: array<u32>;
@@ -37,7 +45,8 @@ fn mean_radiance(center: vec3<f32>, n: vec3<f32>) -> vec3<f32> {
     let basis = basis_of(n);
     var sum = vec3<f32>(0.0);
     for (var i = 0u; i < cone.count; i += 1u) {
-        let seen = trace_cone(cone, center + cone.start_cells * n, basis * cosine_direction(i, cone.count));
+        let direction = basis * cosine_direction(i, cone.count);
+        let seen = trace_cone(cone.shape, 0.0, center + cone.shape.start_cells * n, direction);
         sum += select(seen.radiance, seen.through * cone.sky, SKY);
     }
     return sum / f32(cone.count);

@@ -7,11 +7,7 @@
 #import shared/sample.wgsl
 #import shared/transmittance.wgsl
 
-struct ConeParams {
-    // Radiance behind all that is in the grid, nits.
-    sky: vec3<f32>,
-    // Cones over a hemisphere.
-    count: u32,
+struct ConeShape {
     // 2·tan(a / 2), a being the full apex angle.
     widening: f32,
     // From the surface to the apex, along the normal, cells.
@@ -26,9 +22,16 @@ struct ConeParams {
 struct ConeLight {
     radiance: vec3<f32>,
     through: f32,
+    // The share that comes through up to the distance of occlusion.
+    open: f32,
 }
 
-fn cone_diameter(cone: ConeParams, t: f32) -> f32 {
+// A cone looks for light.
+override RADIANCE: bool = true;
+// A cone tells how open it is up to a distance; alone, it ends there.
+override OCCLUSION: bool = false;
+
+fn cone_diameter(cone: ConeShape, t: f32) -> f32 {
     return max(1.0, t * cone.widening);
 }
 
@@ -45,21 +48,29 @@ fn grid_span(ray: Ray) -> vec2<f32> {
     return vec2<f32>(max(0.0, max(near.x, max(near.y, near.z))), min(far.x, min(far.y, far.z)));
 }
 
-fn trace_cone(cone: ConeParams, apex: vec3<f32>, direction: vec3<f32>) -> ConeLight {
+fn trace_cone(cone: ConeShape, occlusion_cells: f32, apex: vec3<f32>, direction: vec3<f32>) -> ConeLight {
     let ray = ray_of(apex, direction);
     let span = grid_span(ray);
     let end = min(span.y, cone.reach_cells);
-    var sum = ConeLight(vec3<f32>(0.0), 1.0);
+    var sum = ConeLight(vec3<f32>(0.0), 1.0, 1.0);
     var t = span.x;
     // Steps are LEAST_STEP cells or more, and no path through the grid is longer than 2N.
     let most = 2u * u32(f32(grid_cells()) / LEAST_STEP);
     for (var n = 0u; n < most && t < end && sum.through >= LEAST_LIGHT; n += 1u) {
+        if !RADIANCE && t >= occlusion_cells {
+            break;
+        }
         let length = min(cone.step_diameters * cone_diameter(cone, t), end - t);
         let middle = t + 0.5 * length;
-        let seen = sample_quadrilinear(cone_diameter(cone, middle), ray_at(ray, middle), direction);
+        let seen = sample_width(cone_diameter(cone, middle), ray_at(ray, middle), direction);
         if seen.w > 0.0 {
+            if OCCLUSION && t < occlusion_cells {
+                sum.open = sum.through * transmittance(seen.w, min(length, occlusion_cells - t));
+            }
             let through = sum.through * transmittance(seen.w, length);
-            sum.radiance += (sum.through - through) / seen.w * seen.xyz;
+            if RADIANCE {
+                sum.radiance += (sum.through - through) / seen.w * seen.xyz;
+            }
             sum.through = through;
         }
         t += length;

@@ -6,7 +6,8 @@
 // the hemisphere is distributed by the cosine, so that each direction weighs 1 / count.
 fn cosine_direction(i: u32, count: u32) -> vec3<f32> {
     let square = (f32(i) + 0.5) / f32(count);
-    let angle = f32(i) * GOLDEN_ANGLE;
+    // Turns wrap around as integers do, so that late directions are as exact as early ones.
+    let angle = f32(bitcast<i32>(i * GOLDEN_TURN)) * TURN_ANGLE;
     return vec3<f32>(sqrt(square) * vec2<f32>(cos(angle), sin(angle)), sqrt(1.0 - square));
 }
 
@@ -18,4 +19,9 @@ fn basis_of(n: vec3<f32>) -> mat3x3<f32> {
     let x = vec3<f32>(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
     let y = vec3<f32>(b, side + n.y * n.y * a, -n.y);
     return mat3x3<f32>(x, y, n);
+}
+
+// A direction below a surface, mirrored to above it. Normal maps tilt the hemisphere, faces end it.
+fn above_face(direction: vec3<f32>, face: vec3<f32>) -> vec3<f32> {
+    return direction - 2.0 * min(dot(direction, face), 0.0) * face;
 }

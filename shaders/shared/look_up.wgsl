@@ -5,8 +5,6 @@
 #import shared/sample.wgsl
 
 override LINKED: bool = false;
-// One of FILTER_*.
-override FILTER: u32 = 0u;
 
 fn entry_of(level: u32, node: vec3<i32>) -> u32 {
     if LINKED {

@@ -11,6 +11,8 @@
 #import shared/corners.wgsl
 
 override DIRECTIONAL: bool = false;
+// One of FILTER_*.
+override FILTER: u32 = FILTER_QUADRILINEAR;
 
 // Cells a node of a level spans.
 fn node_width(level: u32) -> f32 {
@@ -72,4 +74,16 @@ fn sample_quadrilinear(width_cells: f32, p: vec3<f32>, direction: vec3<f32>) -> 
         return fine;
     }
     return (1.0 - blend) * fine + blend * sample_trilinear(level - 1u, p, direction);
+}
+
+// What a cone of that width sees: without quadrilinear sampling, in the level of the nearest width.
+fn sample_width(width_cells: f32, p: vec3<f32>, direction: vec3<f32>) -> vec4<f32> {
+    if FILTER == FILTER_QUADRILINEAR {
+        return sample_quadrilinear(width_cells, p, direction);
+    }
+    let level = octree.depth - u32(clamp(log2(max(width_cells, 1.0)) + 0.5, 0.0, f32(octree.depth)));
+    if FILTER == FILTER_TRILINEAR {
+        return sample_trilinear(level, p, direction);
+    }
+    return sample_nearest(level, p, direction);
 }

@@ -44,9 +44,12 @@ struct PixelRay {
 
 // Pixels in tiles of 8 x 8, a tile in Morton order: neighbours in a workgroup see similar voxels.
 fn tiled_pixel(thread: u32) -> vec2<u32> {
-    let tiles_x = (view.width_px + 7u) / 8u;
-    let tile = thread / 64u;
-    let i = thread % 64u;
+    return pixel_of_tile(view.width_px, thread / 64u, thread % 64u);
+}
+
+// Pixel i of a tile of a picture; the last tiles reach beyond it.
+fn pixel_of_tile(width_px: u32, tile: u32, i: u32) -> vec2<u32> {
+    let tiles_x = (width_px + 7u) / 8u;
     let x = (i & 1u) | ((i >> 1u) & 2u) | ((i >> 2u) & 4u);
     let y = ((i >> 1u) & 1u) | ((i >> 2u) & 2u) | ((i >> 3u) & 4u);
     return vec2<u32>(8u * (tile % tiles_x) + x, 8u * (tile / tiles_x) + y);

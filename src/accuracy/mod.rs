@@ -4,9 +4,12 @@
 //! that only moved voxels reached.
 
 mod cut_outs;
+pub mod path_tracer;
+pub mod picture_error;
 pub mod posed_triangles;
+pub mod ray_tree;
 pub mod shadows;
-mod triangle;
+pub mod triangle;
 
 use serde::Serialize;
 

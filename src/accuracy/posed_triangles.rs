@@ -2,23 +2,15 @@
 //! measured against.
 //!
 //! In: a prepared scene, a pose, what is hidden. Out: triangles in cells from the grid's corner, f64, and
-//! whether anything lies on a segment. A compressed wide bounding volume hierarchy finds the triangles a
-//! ray may meet: its boxes are f32, wider than rounding needs, and triangles are met in f64. What MASK cuts
-//! out by its cutoff, and BLEND where it is less than half there, is a hole.
+//! whether anything lies on a segment. What MASK cuts out by its cutoff, and BLEND where it is less than
+//! half there, is a hole.
 
-use std::time::Duration;
-
-use glam::{DVec3, Vec3A};
-use obvhs::aabb::Aabb;
-use obvhs::cwbvh::CwBvh;
-use obvhs::cwbvh::builder::build_cwbvh;
-use obvhs::ray::Ray;
-use obvhs::{Boundable, BvhBuildParams};
-use rayon::prelude::*;
+use glam::DVec3;
 
 use super::cut_outs::CutOuts;
+use super::ray_tree::{RayTree, Segment};
 use super::triangle::{PosedTriangle, weighted};
-use crate::prepare::{MotionError, Prepared, PreparedObject};
+use crate::prepare::{MotionError, Prepared};
 use crate::scene::Pose;
 use crate::settings::{Hidden, MotionSettings};
 
@@ -26,24 +18,22 @@ use crate::settings::{Hidden, MotionSettings};
 /// touch may be 2^-24 of 1024 cells apart: far less than this. A leaf is a thousand times as wide.
 pub const START_OFFSET_CELLS: f64 = 1.0 / 1024.0;
 
-/// Of the largest coordinate: by how much boxes are wider than their triangles. Rounding origin,
-/// direction and planes to f32 moves a ray by less than 2^-21 of it.
-const BOX_SLACK: f64 = 1.0 / (1 << 19) as f64;
-
 /// All triangles of a pose, as rays meet them.
 pub struct PosedTriangles<'a> {
-    triangles: Vec<PosedTriangle>,
+    tree: RayTree,
     surfaces: Vec<PosedSurface<'a>>,
-    /// `None` where there is no triangle.
-    tree: Option<CwBvh>,
     /// Objects that are not at a finite place, a sentence each.
     pub warnings: Vec<String>,
 }
 
 /// A primitive of an object.
-struct PosedSurface<'a> {
-    /// World axes, which the grid shares.
-    normals: Vec<DVec3>,
+pub struct PosedSurface<'a> {
+    /// Into [`Prepared::objects`].
+    pub object: usize,
+    /// Of the object's mesh.
+    pub primitive: usize,
+    /// Of vertices, in world axes, which the grid shares.
+    pub normals: Vec<DVec3>,
     /// `None`: there everywhere.
     cut_outs: Option<CutOuts<'a>>,
 }
@@ -66,28 +56,20 @@ impl SurfacePoint {
     }
 }
 
-struct Bounded(Aabb);
-
-impl Boundable for Bounded {
-    fn aabb(&self) -> Aabb {
-        self.0
-    }
-}
-
 impl<'a> PosedTriangles<'a> {
     pub fn new(prepared: &'a Prepared, motion: &MotionSettings, hidden: &Hidden) -> Result<Self, MotionError> {
         let pose = prepared.pose(motion)?;
-        let mut posed = Self { triangles: Vec::new(), surfaces: Vec::new(), tree: None, warnings: Vec::new() };
-        let shown = (0..).zip(&prepared.objects).filter(|(index, _)| !hidden.contains(*index));
-        for (_, object) in shown {
-            posed.add_object(prepared, object, &pose);
+        let mut posed = Self { tree: RayTree::new(Vec::new()), surfaces: Vec::new(), warnings: Vec::new() };
+        let mut triangles = Vec::new();
+        for index in (0..prepared.objects.len()).filter(|&index| !hidden.contains(index)) {
+            posed.add_object(prepared, index, &pose, &mut triangles);
         }
-        posed.tree = tree(&posed.triangles);
+        posed.tree = RayTree::new(triangles);
         Ok(posed)
     }
 
-    fn add_object(&mut self, prepared: &'a Prepared, object: &PreparedObject, pose: &Pose) {
-        let scene = &prepared.scene;
+    fn add_object(&mut self, prepared: &'a Prepared, number: usize, pose: &Pose, triangles: &mut Vec<PosedTriangle>) {
+        let (scene, object) = (&prepared.scene, &prepared.objects[number]);
         let to_grid = prepared.grid.grid_from_world();
         let primitives = &scene.meshes[object.object.mesh].primitives;
         let posed: Vec<Vec<DVec3>> = (0..primitives.len())
@@ -100,32 +82,43 @@ impl<'a> PosedTriangles<'a> {
         }
         for (index, (primitive, positions)) in primitives.iter().zip(&posed).enumerate() {
             let surface = self.surfaces.len() as u32;
-            self.triangles.extend(primitive.triangles.iter().map(|&vertices| {
+            triangles.extend(primitive.triangles.iter().map(|&vertices| {
                 let corners = vertices.map(|vertex| positions[vertex as usize]);
                 PosedTriangle { corners, vertices, surface }
             }));
             let normals = scene.posed_normals(&object.object, index, pose);
-            self.surfaces.push(PosedSurface { normals, cut_outs: CutOuts::new(prepared, primitive) });
+            let cut_outs = CutOuts::new(prepared, primitive);
+            self.surfaces.push(PosedSurface { object: number, primitive: index, normals, cut_outs });
         }
     }
 
     pub fn len(&self) -> usize {
-        self.triangles.len()
+        self.tree.triangles().len()
     }
 
     pub fn is_empty(&self) -> bool {
-        self.triangles.is_empty()
+        self.tree.triangles().is_empty()
+    }
+
+    /// For rays that ask by themselves what is there.
+    pub fn tree(&self) -> &RayTree {
+        &self.tree
+    }
+
+    /// By [`PosedTriangle::surface`].
+    pub fn surfaces(&self) -> &[PosedSurface<'a>] {
+        &self.surfaces
     }
 
     /// Of each triangle, cells².
     pub fn areas(&self) -> impl Iterator<Item = f64> {
-        self.triangles.iter().map(|triangle| triangle.doubled_area().length() / 2.0)
+        self.tree.triangles().iter().map(|triangle| triangle.doubled_area().length() / 2.0)
     }
 
     /// Where `place` (a weight a corner, together 1) lies on a triangle; `None` in a hole, and on a
     /// triangle without area.
     pub fn point(&self, triangle: usize, place: DVec3) -> Option<SurfacePoint> {
-        let triangle = &self.triangles[triangle];
+        let triangle = &self.tree.triangles()[triangle];
         let surface = &self.surfaces[triangle.surface as usize];
         let face = triangle.doubled_area().try_normalize()?;
         if surface.is_hole(triangle.vertices, place) {
@@ -139,34 +132,11 @@ impl<'a> PosedTriangles<'a> {
     /// Does anything lie within `length` cells of `from` along `direction` (unit length)? Any length will
     /// do, infinite too.
     pub fn is_hidden(&self, from: DVec3, direction: DVec3, length: f64) -> bool {
-        let Some(tree) = &self.tree else { return false };
-        // The tree counts −0 as forward and its inverse as backward, and would miss everything: + 0 turns it round.
-        let along = direction.as_vec3a() + Vec3A::ZERO;
-        // Rounded up: the f64 length decides.
-        let ray = Ray::new(from.as_vec3a(), along, 0.0, (length * (1.0 + BOX_SLACK)) as f32);
-        !tree.ray_traverse_miss(ray, |_, found| {
-            let triangle = &self.triangles[tree.primitive_indices[found] as usize];
-            let is_met = triangle.meets(from, direction).is_some_and(|(t, place)| {
-                (0.0..length).contains(&t)
-                    && !self.surfaces[triangle.surface as usize].is_hole(triangle.vertices, place)
-            });
-            if is_met { 0.0 } else { f32::INFINITY }
+        self.tree.meets_any(Segment { from, direction, length }, |triangle, place| {
+            let triangle = &self.tree.triangles()[triangle];
+            !self.surfaces[triangle.surface as usize].is_hole(triangle.vertices, place)
         })
     }
-}
-
-fn tree(triangles: &[PosedTriangle]) -> Option<CwBvh> {
-    let corners = triangles.par_iter().flat_map_iter(|triangle| triangle.corners);
-    let largest = corners.map(|corner| corner.abs().max_element()).reduce(|| 0.0, f64::max);
-    let slack = DVec3::splat(largest.max(1.0) * BOX_SLACK);
-    let bounded = |triangle: &PosedTriangle| {
-        let [a, b, c] = triangle.corners;
-        let (min, max) = (a.min(b).min(c) - slack, a.max(b).max(c) + slack);
-        Bounded(Aabb { min: Vec3A::from(min.as_vec3()), max: Vec3A::from(max.as_vec3()) })
-    };
-    let boxes: Vec<Bounded> = triangles.par_iter().map(bounded).collect();
-    let params = BvhBuildParams::medium_build();
-    (!boxes.is_empty()).then(|| build_cwbvh(&boxes, params, &mut Duration::default()))
 }
 
 impl PosedSurface<'_> {
@@ -182,8 +152,8 @@ mod tests {
     fn posed(corners: &[[DVec3; 3]]) -> PosedTriangles<'static> {
         let triangle = |&corners: &[DVec3; 3]| PosedTriangle { corners, vertices: [0, 1, 2], surface: 0 };
         let triangles: Vec<PosedTriangle> = corners.iter().map(triangle).collect();
-        let surfaces = vec![PosedSurface { normals: vec![DVec3::Y; 3], cut_outs: None }];
-        PosedTriangles { tree: tree(&triangles), triangles, surfaces, warnings: Vec::new() }
+        let surfaces = vec![PosedSurface { object: 0, primitive: 0, normals: vec![DVec3::Y; 3], cut_outs: None }];
+        PosedTriangles { tree: RayTree::new(triangles), surfaces, warnings: Vec::new() }
     }
 
     /// Two triangles across the axis, side 2, around (16, 10, 16).

@@ -11,7 +11,6 @@ use crate::data::octree::PointerLayout;
 use crate::lights::{self, PosedLight, posed_lights};
 use crate::plan::{self, Changes, ConesAsked, SceneFacts};
 use crate::prepare::{ExactVoxels, FrameMatrices, Prepared};
-use crate::scene::camera::camera_from_scene_camera;
 use crate::scene::{OrbitCamera, Pose};
 use crate::settings::{ColorBy, Filter, Hidden, Look, Settings, View};
 use crate::stages::fill::number_objects::OBJECT_MASK;
@@ -120,7 +119,7 @@ impl Engine {
         let size_px = size_px.map(|size| size.max(1));
         let facts = SceneFacts { lights: lights.len() as u32, picture_px: size_px, ..facts };
         let placed = Placed { pose: Arc::new(pose), hidden };
-        let camera = camera(prepared, settings, &placed.pose, size_px);
+        let camera = prepared.camera(settings, &placed.pose, size_px);
         self.wanted = Some(Wanted { settings: settings.clone(), size_px, camera, placed, lights, frame, facts });
         if self.running.is_none() {
             self.make_plan();
@@ -163,16 +162,6 @@ impl Engine {
             specular: self.done.specular != Some(TracedBy::specular(wanted)),
         }
     }
-}
-
-/// The camera that is set, else the file's first, else one that frames everything.
-fn camera(prepared: &Prepared, settings: &Settings, pose: &Pose, size_px: [u32; 2]) -> OrbitCamera {
-    let of_file = || camera_from_scene_camera(&prepared.scene, 0, pose);
-    settings.look.camera.or_else(of_file).unwrap_or_else(|| {
-        let mut camera = OrbitCamera::default();
-        camera.frame(prepared.bounds, f64::from(size_px[0]) / f64::from(size_px[1]));
-        camera
-    })
 }
 
 /// A leaf stores its object in 16 bits, of which the largest number stands for none.

@@ -8,9 +8,10 @@ use crate::data::pages::WORK_HINT_THREADS;
 use crate::data::voxel_cache::TILE_CELLS;
 use crate::stages::build::scan::SCAN_CHUNK;
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED};
+use crate::stages::cones::specular;
 use crate::stages::fill::number_objects::OBJECT_MASK;
 use crate::stages::light::gather;
-use crate::stages::{light, mesh, sample, surface, view};
+use crate::stages::{cones, light, mesh, sample, surface, view};
 
 /// Name in WGSL and value, taken from the Rust constant so that no number is written twice.
 pub const CONSTANTS: &[(&str, u32)] = &[
@@ -32,6 +33,7 @@ pub const CONSTANTS: &[(&str, u32)] = &[
     ("FRACTION_BITS", FRACTION_BITS),
     ("FRACTION_ONE", 1 << FRACTION_BITS),
     ("FULL_WEIGHT", FULL_WEIGHT),
+    ("GOLDEN_TURN", gather::GOLDEN_TURN),
     ("LEFT_HANDED", mesh::LEFT_HANDED),
     ("LIGHT_DIRECTIONAL", light::LIGHT_DIRECTIONAL),
     ("LIGHT_SPOT", light::LIGHT_SPOT),
@@ -77,7 +79,6 @@ pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
     ("EDGE_FROM_PX", view::EDGE_FROM_PX),
     ("EDGE_FULL_PX", view::EDGE_FULL_PX),
     ("EDGE_SHADE", view::EDGE_SHADE),
-    ("GOLDEN_ANGLE", gather::GOLDEN_ANGLE),
     ("INVERSE_PI", std::f64::consts::FRAC_1_PI),
     ("LEAST_DISTANCE_CELLS", light::LEAST_DISTANCE_CELLS),
     ("LEAST_EYE_COSINE", surface::LEAST_EYE_COSINE),
@@ -85,15 +86,19 @@ pub const FLOAT_CONSTANTS: &[(&str, f64)] = &[
     ("LEAST_ROUGHNESS", surface::LEAST_ROUGHNESS),
     ("LEAST_STEP", gather::LEAST_STEP),
     ("LEAST_THROUGH", sample::LEAST_THROUGH),
+    ("LEAST_WEIGHT", cones::LEAST_WEIGHT),
     ("LIGHT_NEAR_CELLS", light::shadow::NEAR_CELLS),
     ("LUMINANCE_BLUE", LUMINANCE[2]),
     ("LUMINANCE_GREEN", LUMINANCE[1]),
     ("LUMINANCE_RED", LUMINANCE[0]),
+    ("NARROWEST_TANGENT", specular::NARROWEST_TANGENT),
     ("PI", std::f64::consts::PI),
     ("SHADOW_HEIGHT_CELLS", surface::SHADOW_HEIGHT_CELLS),
     ("SHADOW_HEIGHT_TEXELS", surface::SHADOW_HEIGHT_TEXELS),
     ("SHORT_NORMAL", view::SHORT_NORMAL),
     ("SPREAD_COSINE", light::SPREAD_COSINE),
+    ("TURN_ANGLE", gather::TURN_ANGLE),
+    ("WIDEST_TANGENT", specular::WIDEST_TANGENT),
 ];
 
 /// One `const NAME: u32 = …;` or `const NAME: f32 = …;` a line.

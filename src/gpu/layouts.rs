@@ -10,7 +10,12 @@ use crate::data::octree::{OctreeLevel, OctreeParams};
 use crate::data::pages::WorkItem;
 use crate::stages::build::LevelParams;
 use crate::stages::build::scan::ScanParams;
-use crate::stages::light::gather::ConeParams;
+use crate::stages::cones::blur::BlurParams;
+use crate::stages::cones::diffuse::DiffuseParams;
+use crate::stages::cones::glossy_tiles::GlossyParams;
+use crate::stages::cones::specular::SpecularParams;
+use crate::stages::cones::upsample::UpsampleParams;
+use crate::stages::light::gather::{ConeParams, ConeShape};
 use crate::stages::light::illuminate::LightParams;
 use crate::stages::light::inject::InjectParams;
 use crate::stages::light::shadow::{ShadowFrame, ShadowParams};
@@ -97,17 +102,23 @@ pub const MIRRORS: &[Mirror] = &[
     ),
     mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
     mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(ConeShape, "shared/cone.wgsl", "ConeShape", widening, start_cells, step_diameters, reach_cells,),
+    mirror!(ConeParams, "light/gather.wgsl", "ConeParams", sky, count, shape),
     mirror!(
-        ConeParams,
-        "shared/cone.wgsl",
-        "ConeParams",
+        DiffuseParams,
+        "cones/diffuse.wgsl",
+        "DiffuseParams",
         sky,
         count,
-        widening,
-        start_cells,
-        step_diameters,
-        reach_cells,
+        shape,
+        size_px,
+        pattern_px,
+        occlusion_cells,
     ),
+    mirror!(BlurParams, "cones/blur.wgsl", "BlurParams", size_px, radius_px, vertical, weights),
+    mirror!(UpsampleParams, "cones/upsample.wgsl", "UpsampleParams", size_px, pad),
+    mirror!(GlossyParams, "cones/glossy_tiles.wgsl", "GlossyParams", size_px, tiles, most_roughness),
+    mirror!(SpecularParams, "cones/specular.wgsl", "SpecularParams", sky, most_roughness, shape, size_px, pad),
     mirror!(SliceParams, "view/slice.wgsl", "SliceParams", axis, height_cells, at, flags, least, most, pad,),
     mirror!(ComposeParams, "surface/compose.wgsl", "ComposeParams", sky, glossy_roughness, span, pad, pad_end),
     mirror!(SumParams, "surface/sum_luminance.wgsl", "SumParams", pixels),

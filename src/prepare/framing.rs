@@ -1,13 +1,24 @@
-//! Where a part of the scene is: the box a camera frames.
+//! Where a part of the scene is: the box a camera frames; and the camera of a picture.
 
 use super::{MotionError, Prepared};
-use crate::scene::Aabb;
-use crate::settings::MotionSettings;
+use crate::scene::camera::camera_from_scene_camera;
+use crate::scene::{Aabb, OrbitCamera, Pose};
+use crate::settings::{MotionSettings, Settings};
 
 /// Nodes without any surface below them are framed with this share of the scene around them.
 const SURROUNDINGS: f64 = 0.05;
 
 impl Prepared {
+    /// The camera that is set, else the file's first, else one that frames everything in a picture of this size.
+    pub fn camera(&self, settings: &Settings, pose: &Pose, size_px: [u32; 2]) -> OrbitCamera {
+        let of_file = || camera_from_scene_camera(&self.scene, 0, pose);
+        settings.look.camera.or_else(of_file).unwrap_or_else(|| {
+            let mut camera = OrbitCamera::default();
+            camera.frame(self.bounds, f64::from(size_px[0]) / f64::from(size_px[1]));
+            camera
+        })
+    }
+
     /// The box around all that a node and those below it show in a pose, hidden or not; around the
     /// places of these nodes where none has a mesh. `None` where nothing of it is at a finite place.
     pub fn bounds_below(&self, node: usize, motion: &MotionSettings) -> Result<Option<Aabb>, MotionError> {

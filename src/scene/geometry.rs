@@ -40,6 +40,26 @@ impl Scene {
         }
     }
 
+    /// Of a primitive's vertices, in the world: the way their normal map's red grows, and the way its green
+    /// does (glTF: normal × tangent · handedness), of any length. Empty where the mesh has no tangents.
+    pub fn posed_tangents(&self, object: &Object, primitive: usize, pose: &Pose) -> Vec<[DVec3; 2]> {
+        let primitive = &self.meshes[object.mesh].primitives[primitive];
+        let axes = primitive.tangents.par_iter().zip(&primitive.normals).map(|(tangent, normal)| {
+            let along = tangent.truncate().as_dvec3();
+            [along, normal.as_dvec3().cross(along) * f64::from(tangent.w)]
+        });
+        match self.mover(object, primitive, pose) {
+            Mover::Rigid(matrix) => axes.map(|axes| axes.map(|axis| matrix.transform_vector3(axis))).collect(),
+            Mover::Skinned(joints) => axes
+                .enumerate()
+                .map(|(vertex, axes)| {
+                    let matrix = blend(primitive, vertex, &joints);
+                    axes.map(|axis| matrix.transform_vector3(axis))
+                })
+                .collect(),
+        }
+    }
+
     fn mover(&self, object: &Object, primitive: &Primitive, pose: &Pose) -> Mover {
         match object.motion {
             Motion::Skinned { skin } if !primitive.joints.is_empty() => Mover::Skinned(self.joint_matrices(skin, pose)),

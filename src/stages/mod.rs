@@ -5,6 +5,7 @@ pub mod averaging;
 pub mod bench;
 pub mod build;
 pub mod compare;
+pub mod cones;
 pub mod fill;
 pub mod light;
 pub mod mesh;

@@ -126,7 +126,7 @@ fn the_aperture_is_the_full_apex_angle() {
     let octree = full_grid(0.25);
     let widest = Cones { start_cells: 0.0, reach_cells: 1.0, ..cones(3, 180.0) };
     let params = ConeParams::new(&widest, [0.0; 3]);
-    assert!(params.widening.is_finite() && params.widening > 1e9);
+    assert!(params.shape.widening.is_finite() && params.shape.widening > 1e9);
     assert!(gathered(&octree, Gathered::Sky, &widest, ISOTROPIC).iter().all(|(_, e)| e.is_finite()));
 }
 

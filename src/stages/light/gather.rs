@@ -8,8 +8,10 @@ use crate::settings::lighting::Opacity;
 
 /// A step is never shorter than this, in cells: what bounds the steps of a cone.
 pub const LEAST_STEP: f64 = 1.0 / 16.0;
-/// Between neighbouring directions of a sunflower: a turn divided by the golden ratio, twice.
-pub const GOLDEN_ANGLE: f64 = std::f64::consts::TAU * 0.381_966_011_250_105_1;
+/// Between neighbouring directions of a sunflower: a turn divided by the golden ratio, twice, in 2^-32 of a turn.
+pub const GOLDEN_TURN: u32 = 0x61c8_8647;
+/// One of those units, in radians.
+pub const TURN_ANGLE: f64 = std::f64::consts::TAU / (1_u64 << 32) as f64;
 
 /// How a surface looks around.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,30 +41,41 @@ impl Cones {
     }
 }
 
-/// Mirror of `ConeParams` in shaders/shared/cone.wgsl.
+/// Mirror of `ConeShape` in shaders/shared/cone.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct ConeParams {
-    pub sky: [f32; 3],
-    pub count: u32,
+pub struct ConeShape {
     pub widening: f32,
     pub start_cells: f32,
     pub step_diameters: f32,
     pub reach_cells: f32,
 }
 
-impl ConeParams {
-    /// `sky`: radiance from all directions, nits.
-    pub fn new(cones: &Cones, sky: [f32; 3]) -> Self {
+impl ConeShape {
+    pub fn new(cones: &Cones) -> Self {
         Self {
-            sky,
-            count: cones.count,
             widening: cones.widening() as f32,
             start_cells: cones.start_cells as f32,
             step_diameters: cones.step_diameters as f32,
             // Shaders know no infinity.
             reach_cells: cones.reach_cells.min(f64::from(f32::MAX)) as f32,
         }
+    }
+}
+
+/// Mirror of `ConeParams` in shaders/light/gather.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct ConeParams {
+    pub sky: [f32; 3],
+    pub count: u32,
+    pub shape: ConeShape,
+}
+
+impl ConeParams {
+    /// `sky`: radiance from all directions, nits.
+    pub fn new(cones: &Cones, sky: [f32; 3]) -> Self {
+        Self { sky, count: cones.count, shape: ConeShape::new(cones) }
     }
 }
 

@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::gather::Cones;
+use crate::settings::Sampling;
 use crate::stages::sample::sample_points_ref::LitNodes;
 use crate::stages::view::SHORT_NORMAL;
 
@@ -43,23 +44,38 @@ pub fn basis(n: DVec3) -> DMat3 {
 
 /// One cone from its apex.
 pub fn trace(lit: &LitNodes, cones: &Cones, apex: DVec3, direction: DVec3) -> Seen {
+    trace_open(lit, (cones, Sampling::Quadrilinear, 0.0), apex, direction).0
+}
+
+/// The same by any sampling, and the share that comes through up to a distance in cells.
+pub fn trace_open(
+    lit: &LitNodes,
+    (cones, sampling, occlusion_cells): (&Cones, Sampling, f64),
+    apex: DVec3,
+    direction: DVec3,
+) -> (Seen, f64) {
     let diameter = |t: f64| (t * cones.widening()).max(1.0);
     let (enter, leave) = inside(apex, direction, f64::from(1_u32 << lit.depth));
     let end = leave.min(cones.reach_cells);
     let mut seen = Seen { radiance: DVec3::ZERO, through: 1.0 };
+    let mut open = 1.0;
     let mut t = enter;
     while t < end {
         let length = (cones.step_diameters * diameter(t)).min(end - t);
         let middle = t + length / 2.0;
-        let sample = lit.quadrilinear(diameter(middle), apex + direction * middle, direction);
+        let sample = lit.at_width(sampling, diameter(middle), apex + direction * middle, direction);
         if sample.alpha > 0.0 {
-            let stopped = seen.through * (1.0 - (1.0 - sample.alpha).max(0.0).powf(length));
+            let passes = |length: f64| (1.0 - sample.alpha).max(0.0).powf(length);
+            if t < occlusion_cells {
+                open = seen.through * passes(length.min(occlusion_cells - t));
+            }
+            let stopped = seen.through * (1.0 - passes(length));
             seen.radiance += sample.radiance / sample.alpha * stopped;
             seen.through -= stopped;
         }
         t += length;
     }
-    seen
+    (seen, open)
 }
 
 /// All cones of a leaf; a leaf without a mean normal looks up and down.

@@ -37,21 +37,30 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// Overrides of shaders/shared/look_up.wgsl.
-    pub fn constants(&self) -> [(&'static str, f64); 4] {
+    /// Overrides of shaders/shared/sample.wgsl.
+    pub fn value_constants(&self) -> [(&'static str, f64); 2] {
         let filter = match self.sampling {
             Sampling::Nearest => FILTER_NEAREST,
             Sampling::Trilinear => FILTER_TRILINEAR,
             Sampling::Quadrilinear => FILTER_QUADRILINEAR,
         };
-        let flag = |on: bool| f64::from(u8::from(on));
+        [("FILTER", filter.into()), ("DIRECTIONAL", flag(self.opacity == Opacity::Directional))]
+    }
+
+    /// Overrides of shaders/shared/look_up.wgsl, which imports the other.
+    pub fn constants(&self) -> [(&'static str, f64); 4] {
+        let [filter, directional] = self.value_constants();
         [
-            ("FILTER", filter.into()),
+            filter,
             ("LINKED", flag(self.lookup != Lookup::Ranks)),
             ("NODE_POINTERS", flag(self.lookup == Lookup::NodePointers)),
-            ("DIRECTIONAL", flag(self.opacity == Opacity::Directional)),
+            directional,
         ]
     }
+}
+
+fn flag(on: bool) -> f64 {
+    f64::from(u8::from(on))
 }
 
 /// What a sampler with any look-up reads.

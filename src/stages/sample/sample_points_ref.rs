@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use glam::{DVec3, IVec3};
 
 use super::LEAST_THROUGH;
+use crate::settings::Sampling;
 
 /// What a node holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -86,6 +87,16 @@ impl LitNodes {
         Sampled::default()
             .plus(1.0 - blend, self.trilinear(fine, p, direction))
             .plus(blend, self.trilinear(coarse, p, direction))
+    }
+
+    /// What a cone of that width sees: without quadrilinear sampling, in the level of the nearest width.
+    pub fn at_width(&self, sampling: Sampling, width_cells: f64, p: DVec3, direction: DVec3) -> Sampled {
+        let level = self.depth - (width_cells.max(1.0).log2().round() as u32).min(self.depth);
+        match sampling {
+            Sampling::Nearest => self.nearest(level, p, direction),
+            Sampling::Trilinear => self.trilinear(level, p, direction),
+            Sampling::Quadrilinear => self.quadrilinear(width_cells, p, direction),
+        }
     }
 }
 

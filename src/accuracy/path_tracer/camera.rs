@@ -1,0 +1,41 @@
+//! Rays from the eye through a picture, in cells, from the near plane on: as the surface image is drawn.
+
+use glam::DVec3;
+
+use crate::accuracy::ray_tree::Segment;
+use crate::data::grid::Grid;
+use crate::scene::OrbitCamera;
+
+pub struct CameraRays {
+    eye: DVec3,
+    forward: DVec3,
+    /// From the middle of the picture to its right and upper edge, one cell ahead.
+    right: DVec3,
+    up: DVec3,
+    near_cells: f64,
+    size_px: [f64; 2],
+}
+
+impl CameraRays {
+    pub fn new(camera: &OrbitCamera, grid: &Grid, size_px: [u32; 2]) -> Self {
+        let size_px = size_px.map(f64::from);
+        let projection = camera.projection(size_px[0] / size_px[1]);
+        let axes = camera.world_from_camera();
+        Self {
+            eye: grid.grid_from_world().transform_point3(axes.w_axis.truncate()),
+            forward: -axes.z_axis.truncate(),
+            right: axes.x_axis.truncate() / projection.x_axis.x,
+            up: axes.y_axis.truncate() / projection.y_axis.y,
+            near_cells: projection.w_axis.z / grid.span,
+            size_px,
+        }
+    }
+
+    /// Through a point in pixels from the upper left corner. Its distances count from the near plane.
+    pub fn through(&self, [x, y]: [f64; 2]) -> Segment {
+        let (x, y) = (2.0 * x / self.size_px[0] - 1.0, 1.0 - 2.0 * y / self.size_px[1]);
+        let across = self.forward + self.right * x + self.up * y;
+        let from = self.eye + across * self.near_cells;
+        Segment { from, direction: across.normalize(), length: f64::INFINITY }
+    }
+}

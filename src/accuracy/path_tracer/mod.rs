@@ -1,0 +1,182 @@
+//! The picture that cones are measured against: a path tracer over the posed triangles, on all cores.
+//!
+//! In: a prepared scene and settings (pose, what is hidden, lights, sky, emission, camera). Out: a [`Film`]
+//! that gets better by every step, with its own standard error. Written from the rendering equation and
+//! glTF's BRDF; it shares no shading code with the shaders. Same options, same bits, whatever the threads.
+//!
+//! ```text
+//! PosedTriangles ─ surface ─ brdf ┐
+//!                  lights ────────┴ path ──► film
+//!                  sampler, camera ┘
+//! ```
+
+mod brdf;
+mod camera;
+mod film;
+mod lights;
+mod path;
+mod sampler;
+mod surface;
+
+use std::sync::LazyLock;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+pub use film::{Film, StandardError, Term};
+
+use super::posed_triangles::{PosedSurface, PosedTriangles};
+use crate::lights::{LightsError, emits, posed_lights};
+use crate::prepare::Prepared;
+use crate::progress::{Cancelled, Progress};
+use crate::scene::{Material, Pose};
+use crate::settings::Settings;
+use camera::CameraRays;
+use film::PixelSums;
+use lights::{Emitters, Punctual};
+use sampler::Sampler;
+use surface::SurfaceReader;
+
+/// What is near without a distance asked for: this share of the grid.
+const OCCLUSION_SHARE: f64 = 1.0 / 8.0;
+
+/// What settings leave open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    pub size_px: [u32; 2],
+    pub seed: u64,
+    pub pixel: PixelSampling,
+    pub reflection: Reflection,
+}
+
+/// Where in a pixel rays go.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PixelSampling {
+    /// Through its centre, as the surface image has it.
+    #[default]
+    Centre,
+    /// Anywhere: edges are smooth.
+    Area,
+}
+
+/// What surfaces make of light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reflection {
+    /// glTF's metallic-roughness BRDF.
+    #[default]
+    MetallicRoughness,
+    /// The base colour of what arrives, every way alike, as leaves of the octree do.
+    Lambert,
+}
+
+/// All that paths need to know.
+pub struct Scene<'a> {
+    triangles: PosedTriangles<'a>,
+    /// By surface of the triangles.
+    readers: Vec<SurfaceReader<'a>>,
+    punctual: Vec<Punctual>,
+    emitters: Emitters,
+    sky_nits: DVec3,
+    /// What is farther occludes nothing.
+    occlusion_cells: f64,
+    rays: CameraRays,
+    options: Options,
+}
+
+impl<'a> Scene<'a> {
+    /// Objects at no finite place are left out: [`Self::warnings`].
+    pub fn new(prepared: &'a Prepared, settings: &Settings, options: Options) -> Result<Self, LightsError> {
+        let hidden = prepared.hidden(&settings.visibility)?;
+        let triangles = PosedTriangles::new(prepared, &settings.motion, &hidden)?;
+        let pose = prepared.pose(&settings.motion)?;
+        let shown = settings.visibility.shown_nodes(&prepared.scene)?;
+        let lighting = &settings.lighting;
+        let readers = readers(prepared, &triangles, &pose, (lighting.emission, options.reflection));
+        let lights = posed_lights(&prepared.scene, &pose, lighting, &shown, emits(prepared, lighting));
+        let grid = &prepared.grid;
+        let occlusion = settings.cone_tracing.occlusion_distance;
+        let camera = prepared.camera(settings, &pose, options.size_px);
+        Ok(Self {
+            punctual: lights.iter().map(|light| Punctual::new(light, grid)).collect(),
+            emitters: Emitters::new(triangles.tree(), &readers),
+            sky_nits: DVec3::from_array(lighting.sky_nits),
+            occlusion_cells: occlusion
+                .map_or(OCCLUSION_SHARE * f64::from(grid.cells()), |distance| distance / grid.span),
+            rays: CameraRays::new(&camera, grid, options.size_px),
+            triangles,
+            readers,
+            options,
+        })
+    }
+
+    /// What is left out, a sentence each.
+    pub fn warnings(&self) -> &[String] {
+        &self.triangles.warnings
+    }
+
+    pub fn new_film(&self) -> Film {
+        Film::new(self.options.size_px)
+    }
+
+    /// One more sample a pixel. Counts rows to `progress`; a film whose step was cancelled has rows that are
+    /// a sample ahead, which the next step leaves alone.
+    pub fn step(&self, film: &mut Film, progress: &Progress) -> Result<(), Cancelled> {
+        let width = film.size_px()[0] as usize;
+        let index = film.samples();
+        let rows = film.pixels.par_chunks_mut(width.max(1)).zip(&mut film.samples).enumerate();
+        rows.filter(|(_, (_, samples))| **samples == index).try_for_each(|(row, (pixels, samples))| {
+            self.sample_row(row, index, pixels);
+            *samples += 1;
+            progress.advance(1)
+        })
+    }
+
+    /// As many samples a pixel as asked for, less those that the film has.
+    pub fn trace(&self, film: &mut Film, samples: u32, progress: &Progress) -> Result<(), Cancelled> {
+        let missing = samples.saturating_sub(film.samples());
+        progress.add_total(u64::from(missing) * u64::from(film.size_px()[1]));
+        (0..missing).try_for_each(|_| self.step(film, progress))
+    }
+
+    fn sample_row(&self, row: usize, index: u32, pixels: &mut [PixelSums]) {
+        let first = row * pixels.len();
+        for (column, sums) in pixels.iter_mut().enumerate() {
+            let mut sampler = Sampler::new(self.options.seed, (first + column) as u64, u64::from(index));
+            let [x, y] = match self.options.pixel {
+                PixelSampling::Centre => [0.5; 2],
+                PixelSampling::Area => {
+                    let [x, y, _, _] = sampler.four();
+                    [x, y]
+                }
+            };
+            let ray = self.rays.through([column as f64 + x, row as f64 + y]);
+            sums.add(&self.sample(ray, &mut sampler));
+        }
+    }
+}
+
+/// By surface.
+fn readers<'a>(
+    prepared: &'a Prepared,
+    triangles: &PosedTriangles,
+    pose: &Pose,
+    (emission, reflection): (f64, Reflection),
+) -> Vec<SurfaceReader<'a>> {
+    static DEFAULT: LazyLock<Material> = LazyLock::new(Material::default);
+    let scene = &prepared.scene;
+    let reader = |surface: &PosedSurface| {
+        let object = &prepared.objects[surface.object].object;
+        let primitive = &scene.meshes[object.mesh].primitives[surface.primitive];
+        let material = primitive.material.and_then(|material| scene.materials.get(material)).unwrap_or(&DEFAULT);
+        let is_bumpy = material.normal_texture.is_some();
+        SurfaceReader {
+            primitive,
+            material,
+            textures: &prepared.textures,
+            tangents: if is_bumpy { scene.posed_tangents(object, surface.primitive, pose) } else { Vec::new() },
+            emission,
+            reflection,
+        }
+    };
+    triangles.surfaces().iter().map(reader).collect()
+}

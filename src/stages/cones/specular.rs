@@ -1,0 +1,98 @@
+//! The specular cone of glossy surfaces.
+//!
+//! Its full apex angle a holds half of what a rough mirror reflects: half of the normals of a GGX distribution
+//! lie within atan α of the mean, α = roughness², and a reflection turns by twice as much, so a = 4·atan α,
+//! kept between 1° and 30° (section 5.2):
+//!
+//! ```text
+//! roughness   0.05   0.1    0.15   0.2    0.25    0.3     0.36    above
+//! a           1°     2.3°   5.2°   9.2°   14.3°   20.6°   29.5°   30°
+//! ```
+
+use bytemuck::{Pod, Zeroable};
+
+use super::glossy_tiles::TileList;
+use super::{ConesInput, PIXEL_BYTES, TILE_PX};
+use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::settings::ConeTracing;
+use crate::stages::light::gather::{ConeShape, Cones};
+use crate::stages::sample::Sampler;
+
+/// Full apex angles (section 5.2).
+pub const NARROWEST_DEGREES: f64 = 1.0;
+pub const WIDEST_DEGREES: f64 = 30.0;
+/// Tangents of half of them.
+pub const NARROWEST_TANGENT: f64 = 0.008_726_867_790_758_789;
+pub const WIDEST_TANGENT: f64 = 0.267_949_192_431_122_7;
+
+/// Mirror of `SpecularParams` in shaders/cones/specular.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct SpecularParams {
+    pub sky: [f32; 3],
+    pub most_roughness: f32,
+    pub shape: ConeShape,
+    pub size_px: [u32; 2],
+    pub pad: [u32; 2],
+}
+
+impl SpecularParams {
+    /// `sky`: radiance from all directions, nits.
+    pub fn new(settings: &ConeTracing, sky: [f32; 3], size_px: [u32; 2]) -> Self {
+        let cones = Cones {
+            start_cells: settings.start_voxels,
+            step_diameters: settings.step_diameters,
+            reach_cells: f64::INFINITY,
+            ..Cones::default()
+        };
+        let most_roughness = settings.glossy_roughness as f32;
+        Self { sky, most_roughness, shape: ConeShape::new(&cones), size_px, pad: [0; 2] }
+    }
+}
+
+/// Full apex angle of the cone of a surface, degrees.
+pub fn aperture_degrees(roughness: f64) -> f64 {
+    (4.0 * (roughness * roughness).atan()).to_degrees().clamp(NARROWEST_DEGREES, WIDEST_DEGREES)
+}
+
+/// Writes the pixels of `listed` tiles into `specular`, a vec4 a pixel of `params.size_px`, after clearing it.
+/// Nodes are found by rank, whatever the sampler's look-up; the values are the same.
+pub fn record(
+    gpu: &Gpu,
+    frame: &mut Recorder,
+    input: &ConesInput<'_>,
+    (sampler, params): (&Sampler, &SpecularParams),
+    (tiles, listed): (&TileList, u32),
+    specular: &GpuBuffer,
+) {
+    frame.clear(specular);
+    let octree = input.octree;
+    let threads = u64::from(listed) * u64::from(TILE_PX * TILE_PX);
+    let pass = frame.pass(&gpu.kernel("cones/specular.wgsl", &sampler.value_constants()));
+    input
+        .surfaces
+        .bind(pass)
+        .uniform("octree", &octree.params)
+        .uniform("params", params)
+        .bind("blocks", &octree.blocks)
+        .bind("ranks", &octree.ranks)
+        .bind("leaf_bits", &octree.leaf_bits)
+        .bind("block_starts", &octree.block_starts)
+        .bind("light", &octree.light)
+        .bind("list", &tiles.list)
+        .bind("specular", specular)
+        .bytes_moved(3 * PIXEL_BYTES * threads)
+        .dispatch(threads);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tangents_are_those_of_half_the_angles() {
+        for (tangent, degrees) in [(NARROWEST_TANGENT, NARROWEST_DEGREES), (WIDEST_TANGENT, WIDEST_DEGREES)] {
+            assert!((tangent - (degrees / 2.0).to_radians().tan()).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Cones from the surfaces that a camera sees, against the f64 reference.
+
+use glam::{DVec3, Vec3};
+use octolume::settings::lighting::Opacity;
+use octolume::settings::{ConeTracing, Filter, Lookup, Sampling};
+use octolume::stages::cones::diffuse::{DiffuseCones, DiffuseTerms};
+use octolume::stages::cones::diffuse_ref;
+use octolume::stages::sample::Sampler;
+use octolume::stages::view::LEAST_LIGHT;
+
+use crate::cone_rig::{NOTHING, Photo, diffuse, dull, source};
+use crate::device::gpu;
+use crate::lit_octree::LitBuild;
+use crate::octree_rules::Cell;
+use crate::random;
+use crate::stage_build::Shape;
+use crate::view_rig::{camera, grid};
+
+const DEPTH: u32 = 5;
+const SIZE_PX: [u32; 2] = [37, 21];
+const SKY: [f32; 3] = [1.0, 2.0, 0.5];
+
+fn colourful(cell: Cell, a: f64) -> (DVec3, f64) {
+    (DVec3::from_array(cell.map(|c| f64::from(c % 5) * 0.25)), a)
+}
+
+fn random_octree(seed: u64, count: usize) -> LitBuild {
+    LitBuild::new(gpu(), &random::scene(seed, count, DEPTH), &Shape::new(DEPTH, 2, Filter::Split), colourful)
+}
+
+/// Surfaces at all depths of the grid and around it, facing everywhere, with normals that are not their
+/// faces', and background between them.
+fn scattered() -> Photo {
+    let grid = grid(DEPTH);
+    let camera = camera(&grid, DVec3::new(1.0, 0.5, 1.3), 1.4);
+    Photo::new(gpu(), (&grid, &camera), SIZE_PX, |[x, y], ray| {
+        let i = f64::from(y * SIZE_PX[0] + x);
+        if (i as u32).is_multiple_of(13) {
+            return NOTHING;
+        }
+        let turn = |i: f64| DVec3::new((i * 0.7).sin(), (i * 1.3).cos(), (i * 2.1).sin() * 0.8).normalize();
+        let (face, tilted) = (turn(i), turn(i + 0.3));
+        let normal = if tilted.dot(face) > 0.2 { tilted } else { face };
+        dull(ray.start_cells + 8.0 + (i * 5.3) % 40.0, face).with_normal(normal)
+    })
+}
+
+trait WithNormal {
+    fn with_normal(self, normal: DVec3) -> Self;
+}
+
+impl WithNormal for octolume::data::surface_image::SurfaceTexel {
+    fn with_normal(self, normal: DVec3) -> Self {
+        Self { normal, ..self }
+    }
+}
+
+/// How far a cone's mean may be off: it ends early with LEAST_LIGHT to go. A place is off by the roundings of a
+/// pixel's ray and of a sum of steps, 2^-24 of 128 cells a step; α changes by at most 3 a cell and stands in a
+/// power of up to 32.
+fn tolerance() -> f64 {
+    2.0 * (LEAST_LIGHT + 3.0 * 32.0 * 128.0 * 32.0 * 2.0_f64.powi(-24))
+}
+
+#[test]
+fn diffuse_cones_match_the_reference_in_every_mode() {
+    let photo = scattered();
+    let [narrow, paper, wide] = [2.0, 30.0, 90.0];
+    let quadrilinear = Sampler::default();
+    let by = |sampling| Sampler { sampling, ..Sampler::default() };
+    let directional = Sampler { opacity: Opacity::Directional, ..quadrilinear };
+    let (both, light) = ([true, true], [true, false]);
+    for (pattern_px, degrees, sampler, [radiance, occlusion], size_px) in [
+        (1, narrow, quadrilinear, both, SIZE_PX),
+        (2, paper, directional, light, [19, 11]),
+        (4, paper, by(Sampling::Trilinear), both, [19, 11]),
+        (4, wide, quadrilinear, [false, true], SIZE_PX),
+        (2, wide, by(Sampling::Nearest), light, [12, 7]),
+    ] {
+        let octree = random_octree(21 + u64::from(pattern_px), 1500);
+        let settings = ConeTracing { cones: 3, pattern_px, cone_degrees: degrees, ..ConeTracing::default() };
+        let cones = DiffuseCones::new(&settings, 1 << DEPTH, 0.25);
+        let terms = DiffuseTerms { radiance, occlusion };
+        let sampled = octree.sampled(Lookup::Ranks);
+        let found = diffuse(gpu(), (&sampled, &sampler), &photo, (&cones, terms), (SKY, size_px));
+        let lit = octree.lit(sampler.opacity);
+        let mut compared = 0;
+        for (i, found) in found.iter().enumerate() {
+            let pixel = [i as u32 % size_px[0], i as u32 / size_px[0]];
+            let Some(point) = photo.point(source(&photo, pixel, size_px)) else {
+                assert_eq!(*found, [0.0, 0.0, 0.0, 1.0]);
+                continue;
+            };
+            let sky = Vec3::from_array(SKY).as_dvec3();
+            let rules = (&cones, sampler.sampling, terms);
+            let (radiance, open) = diffuse_ref::diffuse(&lit, rules, sky, &point, pixel);
+            let off = (Vec3::from_slice(found).as_dvec3() - radiance).abs().max_element();
+            // Nodes begin where others end: a place beside a border is in either.
+            let may_jump = sampler.sampling == Sampling::Nearest && off < 0.5;
+            let limit = tolerance();
+            assert!(off < limit || may_jump, "{pixel:?} {settings:?} {sampler:?}: {found:?}, not {radiance} {open}");
+            assert!((f64::from(found[3]) - open).abs() < limit || may_jump, "{pixel:?}: {found:?}, not {open}");
+            compared += 1;
+        }
+        assert!(compared * 2 > found.len());
+    }
+}
+
+#[test]
+fn every_look_up_traces_the_same_bits() {
+    let octree = random_octree(31, 1500);
+    let photo = scattered();
+    let cones = DiffuseCones::new(&ConeTracing::default(), 1 << DEPTH, 0.25);
+    let terms = DiffuseTerms { radiance: true, occlusion: true };
+    let bits = [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers].map(|lookup| {
+        let sampler = Sampler { lookup, ..Sampler::default() };
+        let input = (&octree.sampled(lookup), &sampler);
+        bytemuck::pod_collect_to_vec::<[f32; 4], u32>(&diffuse(gpu(), input, &photo, (&cones, terms), (SKY, SIZE_PX)))
+    });
+    assert!(bits[0] == bits[1] && bits[0] == bits[2]);
+}
