@@ -131,13 +131,22 @@ impl PixelSums {
 }
 
 /// Sums of a picture in the making.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Film {
     size_px: [u32; 2],
+    /// That its samples took.
+    pub(super) secs: f64,
     /// By row: how many samples each of its pixels has.
     pub(super) samples: Vec<u32>,
     /// Row by row from the top.
     pub(super) pixels: Vec<PixelSums>,
+}
+
+/// Alike in every bit of the picture, however long it took.
+impl PartialEq for Film {
+    fn eq(&self, other: &Self) -> bool {
+        (self.size_px, &self.samples, &self.pixels) == (other.size_px, &other.samples, &other.pixels)
+    }
 }
 
 /// How far means are off, in the unit of the term.
@@ -154,7 +163,30 @@ pub struct StandardError {
 impl Film {
     pub fn new(size_px: [u32; 2]) -> Self {
         let [width, height] = size_px.map(|side| side as usize);
-        Self { size_px, samples: vec![0; height], pixels: vec![PixelSums::default(); width * height] }
+        let pixels = vec![PixelSums::default(); width * height];
+        Self { size_px, secs: 0.0, samples: vec![0; height], pixels }
+    }
+
+    /// A picture that was kept; `None` where these are no sums of that many samples.
+    pub fn from_pixels(size_px: [u32; 2], samples: u32, secs: f64, pixels: Vec<PixelSums>) -> Option<Self> {
+        let [width, height] = size_px.map(|side| side as usize);
+        let most = f64::from(samples);
+        let is_sum = |sums: &PixelSums| {
+            let values: &[f64] = bytemuck::cast_slice(std::slice::from_ref(sums));
+            values.iter().all(|value| value.is_finite() && *value >= 0.0) && sums.open.max(sums.coverage) <= most
+        };
+        let fits = pixels.len() == width * height && pixels.iter().all(is_sum) && secs >= 0.0;
+        fits.then(|| Self { size_px, secs, samples: vec![samples; height], pixels })
+    }
+
+    /// Rows from the top.
+    pub fn pixels(&self) -> &[PixelSums] {
+        &self.pixels
+    }
+
+    /// That its samples took, on as many threads as there were.
+    pub fn secs(&self) -> f64 {
+        self.secs
     }
 
     pub fn size_px(&self) -> [u32; 2] {
