@@ -44,9 +44,8 @@ fn brdf(s: Surface, to_light: vec3<f32>) -> vec3<f32> {
     return (1.0 - reflected) * diffuse_color(s) * INVERSE_PI + reflected * lobe;
 }
 
-// Share of a uniform sky that the specular lobe reflects to an eye at `cosine`: the rational fit of MaterialX
-// (mx_ggx_dir_albedo_analytic) to the lobe's integral, f0 · a + b. Off by 0.004 in the mean, 0.09 at most, which
-// is where a nearly perfect mirror is seen edge-on (`brdf_ref::specular_albedo`).
+// Share of a uniform sky that the specular lobe reflects to an eye at `cosine`: f0 · a + b, the rational fit of
+// MaterialX (mx_ggx_dir_albedo_analytic) to the lobe's integral. How near it is: brdf_ref::ALBEDO_FIT_ERROR.
 fn specular_albedo(f0: vec3<f32>, roughness: f32, cosine: f32) -> vec3<f32> {
     let x = cosine;
     let y = max(roughness, LEAST_ROUGHNESS) * max(roughness, LEAST_ROUGHNESS);

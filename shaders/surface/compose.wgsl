@@ -4,11 +4,11 @@
 #import shared/threads.wgsl
 #import shared/surface.wgsl
 #import shared/brdf.wgsl
+#import shared/glossy.wgsl
 
 override TERM: u32 = 0u;
 // What was traced: otherwise `diffuse` and `specular` hold nothing.
-override RADIANCE: bool = false;
-override OCCLUSION: bool = false;
+override DIFFUSE: bool = false;
 override SPECULAR: bool = false;
 
 struct ComposeParams {
@@ -32,16 +32,9 @@ struct ComposeParams {
 
 override WORKGROUP_SIZE: u32 = 64u;
 
-// Mean radiance over the cosine-weighted hemisphere. Without light from surfaces it is the sky's, as far
-// as nothing near hides it.
+// Over the cosine-weighted hemisphere.
 fn mean_radiance(i: u32) -> vec3<f32> {
-    if RADIANCE {
-        return diffuse[i].rgb;
-    }
-    if OCCLUSION {
-        return params.sky * diffuse[i].a;
-    }
-    return vec3<f32>(0.0);
+    return select(vec3<f32>(0.0), diffuse[i].rgb, DIFFUSE);
 }
 
 fn reflectance(s: Surface) -> vec3<f32> {
@@ -52,15 +45,12 @@ fn diffuse_term(s: Surface, i: u32) -> vec3<f32> {
     return diffuse_color(s) * (1.0 - reflectance(s)) * mean_radiance(i);
 }
 
-// Rough surfaces reflect what their diffuse cones see.
+// Surfaces that are not glossy reflect what their diffuse cones see.
 fn specular_term(s: Surface, i: u32) -> vec3<f32> {
-    if s.roughness > params.glossy_roughness {
+    if !is_glossy(s, params.glossy_roughness) {
         return reflectance(s) * mean_radiance(i);
     }
-    if SPECULAR {
-        return reflectance(s) * specular[i].rgb;
-    }
-    return vec3<f32>(0.0);
+    return select(vec3<f32>(0.0), reflectance(s) * specular[i].rgb, SPECULAR);
 }
 
 fn term(s: Surface, i: u32) -> vec3<f32> {

@@ -12,6 +12,5 @@
 @group(0) @binding(6) var shadow_map: texture_2d_array<f32>;
 
 fn visibility(s: Surface) -> f32 {
-    let above = clear_of_plane(s.position, s.face) + SHADOW_OFFSET_CELLS;
-    return lit_share(s.position + above * s.face);
+    return lit_share_of_plane(s.position, s.face);
 }

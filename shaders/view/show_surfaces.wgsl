@@ -2,7 +2,6 @@
 #import shared/threads.wgsl
 #import shared/palette.wgsl
 #import shared/store_pixel.wgsl
-#import shared/surface.wgsl
 
 override SHOWS: u32 = 0u;
 override CURVE: u32 = 0u;

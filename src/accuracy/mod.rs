@@ -5,6 +5,7 @@
 
 mod cut_outs;
 pub mod path_tracer;
+pub mod picture_error;
 pub mod posed_triangles;
 pub mod ray_tree;
 pub mod shadows;

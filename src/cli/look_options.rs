@@ -60,6 +60,10 @@ pub struct LookOptions {
 }
 
 impl LookOptions {
+    pub fn names_view(&self) -> bool {
+        self.view.is_some()
+    }
+
     /// Puts every option given over what is set.
     pub fn apply(&self, look: &mut Look) {
         if let Some(choice) = self.view {

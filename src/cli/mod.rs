@@ -19,6 +19,7 @@ mod node;
 mod options;
 mod output;
 mod plan;
+mod reference;
 mod render;
 mod session;
 mod statistics;

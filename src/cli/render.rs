@@ -9,7 +9,8 @@ use octolume::settings::{Settings, View};
 use super::Usage;
 use super::look_options::LookOptions;
 use super::options::{Common, Moment};
-use super::session::Session;
+use super::reference::ReferenceOptions;
+use super::session::{self, Session};
 use super::values::{self, Frames, Size};
 
 /// Size of a picture where neither option nor settings picture tells.
@@ -34,6 +35,8 @@ pub struct Render {
     #[arg(long, value_name = "FPS", value_parser = values::frames_per_sec, requires = "frames")]
     fps: Option<f64>,
     #[command(flatten)]
+    reference: ReferenceOptions,
+    #[command(flatten)]
     look: LookOptions,
     #[command(flatten)]
     moment: Moment,
@@ -45,10 +48,24 @@ impl Render {
     pub fn run(&self) -> anyhow::Result<()> {
         let mut settings = self.settings()?;
         let size_px = self.size_px()?;
+        if self.reference.reference {
+            return self.trace(&mut settings, size_px);
+        }
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         for (file, time_secs) in self.pictures(&settings) {
             settings.motion.time_secs = time_secs;
             draw(&mut session, &settings, size_px, &file)?;
+        }
+        Ok(())
+    }
+
+    /// Pictures of the path tracer, which needs no GPU.
+    fn trace(&self, settings: &mut Settings, size_px: [u32; 2]) -> anyhow::Result<()> {
+        let disk = self.common.disk_cache();
+        let prepared = session::prepare_only(&self.scene, &self.common, disk.as_ref(), settings)?;
+        for (file, time_secs) in self.pictures(settings) {
+            settings.motion.time_secs = time_secs;
+            self.reference.draw((&prepared, disk.as_ref()), settings, size_px, &file)?;
         }
         Ok(())
     }
@@ -58,6 +75,9 @@ impl Render {
         self.moment.apply(&mut settings);
         self.look.apply(&mut settings.look);
         settings.check().map_err(Usage)?;
+        if self.reference.reference {
+            self.reference.choose_view(&mut settings, self.look.names_view())?;
+        }
         if is_exr(&self.output) && settings.look.view != View::Surfaces {
             let cause = "an .exr file holds linear light, which only views of surfaces give, such as --view final";
             return Err(Usage(cause.to_owned()).into());
@@ -97,7 +117,7 @@ fn draw(session: &mut Session, settings: &Settings, size_px: [u32; 2], file: &Pa
     Ok(export::write_png(file, &session.engine.read_image()?, settings)?)
 }
 
-fn is_exr(file: &Path) -> bool {
+pub fn is_exr(file: &Path) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"))
 }
 

@@ -11,7 +11,7 @@ use crate::stages::view::{march_light, show_shadow, slice};
 
 /// The mean light of a scene is shown as this without an exposure of one's own: mean voxels are mostly
 /// in shadow, so that what is lit comes out bright.
-pub(super) const MEAN_SHOWN_AS: f64 = 0.18;
+pub const MEAN_SHOWN_AS: f64 = 0.18;
 
 type Drawn<'a> = (&'a PixelRays, &'a Picture);
 

@@ -72,7 +72,7 @@ impl Engine {
             SurfaceStep::Diffuse => self.record_diffuse(wanted),
             SurfaceStep::FilterDiffuse => self.record_diffuse_filter(wanted),
             SurfaceStep::GlossyTiles => self.record_glossy_tiles(wanted),
-            SurfaceStep::GlossyCount => return self.read(&self.surfaces.glossy_tiles.made("glossy tiles")?, 4),
+            SurfaceStep::GlossyCount => return self.read_glossy_count(),
             SurfaceStep::Specular => self.record_specular(wanted),
             SurfaceStep::FilterSpecular => self.record_specular_filter(wanted),
             SurfaceStep::Compose => self.record_composed(wanted),

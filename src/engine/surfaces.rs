@@ -10,6 +10,7 @@ use crate::gpu::{Gpu, GpuBuffer, GpuError, GpuTexture, Job, Recorder};
 use crate::scene::OrbitCamera;
 use crate::settings::lighting::Shadows;
 use crate::settings::{ColorBy, SurfaceView};
+use crate::stages::cones::glossy_tiles::{TileBuffers, TileList};
 use crate::stages::light::illuminate::LightParams;
 use crate::stages::mesh::PosedMesh;
 use crate::stages::surface::compose::{self, ComposeParams, Terms};
@@ -29,12 +30,14 @@ pub struct SurfacesOnGpu {
     pub depth: Option<GpuTexture>,
     pub matrices: Slot,
     pub direct: Slot,
-    /// As traced, where pixels share cones.
-    pub diffuse_shared: Slot,
+    /// Where pixels share cones.
+    pub diffuse_traced: Slot,
+    pub scratch: Slot,
     pub diffuse: Slot,
-    pub specular_shared: Slot,
+    pub specular_traced: Slot,
     pub specular: Slot,
-    pub glossy_tiles: Slot,
+    pub glossy_tiles: TileBuffers,
+    pub glossy_list: Option<TileList>,
     pub glossy_count: u32,
     pub shown: Slot,
     pub sums: Slot,
@@ -159,13 +162,7 @@ impl Engine {
         let direct = made(&self.surfaces.direct, self.done.direct.is_some());
         let diffuse = made(&self.surfaces.diffuse, self.done.diffuse.is_some());
         let specular = made(&self.surfaces.specular, self.done.specular.is_some() && asked.specular.is_ok());
-        let terms = Terms {
-            direct: direct.as_ref(),
-            diffuse: diffuse.as_ref(),
-            has_radiance: asked.radiance.is_ok(),
-            has_occlusion: asked.occlusion.is_ok(),
-            specular: specular.as_ref(),
-        };
+        let terms = Terms { direct: direct.as_ref(), diffuse: diffuse.as_ref(), specular: specular.as_ref() };
         compose::record(&self.gpu, &mut frame, self.surface_image()?, (&view, &params), (surface, terms), shown);
         Ok(frame)
     }

@@ -8,7 +8,7 @@ use octolume::lights::PosedLight;
 use octolume::scene::{LightKind, LocalTransform, Material, Node, OrbitCamera, Scene, Trs};
 use octolume::settings::Filter;
 use octolume::stages::light::illuminate_ref::{Light, Source};
-use octolume::stages::surface::brdf_ref::{Reflector, specular_albedo};
+use octolume::stages::surface::brdf_ref::{ALBEDO_FIT_ERROR, Reflector, specular_albedo};
 use octolume::stages::surface::direct_ref::{self, Place};
 use octolume::stages::surface::{LEAST_EYE_COSINE, direct_march_ref, emission_ref};
 use octolume::stages::view::NO_DEPTH;
@@ -293,7 +293,8 @@ const FIT: &str = "
 #[test]
 fn the_fit_of_the_specular_albedo_is_as_near_as_it_says() {
     let shares = |count: u32| (0..=count).map(move |i| f64::from(i) / f64::from(count));
-    let rows = shares(16).flat_map(|roughness| shares(24).skip(1).map(move |cosine| (roughness, cosine)));
+    let cosines = || [0.005, 0.01, 0.02, 0.03].into_iter().chain(shares(24).skip(1));
+    let rows = shares(24).flat_map(|roughness| cosines().map(move |cosine| (roughness, cosine)));
     let asked: Vec<(f64, f64, f64)> = rows.flat_map(|(r, c)| [0.0, 0.04, 0.5, 1.0].map(|f0| (f0, r, c))).collect();
     let words: Vec<[f32; 4]> = asked.iter().map(|&(f0, r, c)| [f0 as f32, r as f32, c as f32, 0.0]).collect();
     let kernel = gpu().kernel_from_source("fit", FIT, &[]);
@@ -310,8 +311,8 @@ fn the_fit_of_the_specular_albedo_is_as_near_as_it_says() {
         most[i % 4] = most[i % 4].max(error);
         sum += error / asked.len() as f64;
     }
-    println!("mean {sum}, most {most:?}");
-    assert!(sum < 0.004 && most[0] == 0.0 && most[1] < 0.04 && most[3] < 0.09, "mean {sum}, most {most:?}");
+    assert!(sum < 0.006 && most[0] == 0.0 && most[1] < 0.06, "mean {sum}, most {most:?}");
+    assert!(most[2].max(most[3]) < ALBEDO_FIT_ERROR, "most {most:?}");
 }
 
 /// A sphere, its vertices' normals its own: no pixel that faces the light by more than the facets differ is dark.

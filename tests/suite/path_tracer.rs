@@ -30,7 +30,7 @@ fn a_furnace_brings_a_geometric_series_term_by_term() {
         assert_eq!(film.standard_error(Term::Direct).rms, 0.0);
         assert_mean(&film, Term::DiffuseFirst, albedo, rough);
         assert_mean(&film, Term::DiffuseAll, albedo / (1.0 - albedo), rough);
-        assert_mean(&film, Term::Final, 1.0 / (1.0 - albedo), rough);
+        assert_mean(&film, Term::FinalAll, 1.0 / (1.0 - albedo), rough);
         assert_eq!(mean(&film, Term::SpecularAll), 0.0);
     }
 }
@@ -45,7 +45,7 @@ fn a_plane_under_a_constant_sky_shows_its_albedo() {
     let scene = of_panels(vec![floor(8.0, 0)], vec![material(0.6)]);
     let film = traced(scene, &under_sky(seen_floor(), 5.0), 16);
     let expected = 5.0 * f64::from(0.6_f32);
-    for term in [Term::DiffuseFirst, Term::DiffuseAll, Term::Final] {
+    for term in [Term::DiffuseFirst, Term::DiffuseAll, Term::FinalAll] {
         assert!((mean(&film, term) - expected).abs() < 1e-6, "{}", mean(&film, term));
         assert!(film.standard_error(term).rms < 1e-6);
     }
@@ -111,7 +111,7 @@ fn assert_direct(settings: &Settings, expected: f64) {
     let found = mean(&film, Term::Direct);
     // The picture shows a hundredth of a unit of floor.
     assert!((found - expected).abs() <= 1e-3 * expected, "{found} is not {expected}");
-    assert_eq!(found, mean(&film, Term::Final));
+    assert_eq!(found, mean(&film, Term::FinalAll));
 }
 
 #[test]

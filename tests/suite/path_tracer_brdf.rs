@@ -92,7 +92,7 @@ fn a_mirror_shows_a_lit_wall() {
     let scene = of_panels(vec![floor(8.0, 0), wall], vec![glossy(1.0, 1.0, 0.0), glowing(0.0, 7.0)]);
     let film = traced_with(scene, &seen_at(0.5_f64.sqrt()), options(Reflection::MetallicRoughness), 64);
     assert_mean(&film, Term::SpecularFirst, 7.0 * white_metal_albedo(0.045, 0.5_f64.sqrt()), 0.001);
-    assert!((mean(&film, Term::Final) - 7.0).abs() < 0.01, "{}", mean(&film, Term::Final));
+    assert!((mean(&film, Term::FinalAll) - 7.0).abs() < 0.01, "{}", mean(&film, Term::FinalAll));
 }
 
 #[test]
@@ -174,5 +174,5 @@ fn a_normal_map_leans_to_where_red_and_green_point() {
 #[test]
 fn unlit_shows_its_color_and_reflects_nothing() {
     let film = on_floor(Material { unlit: true, ..material(0.25) }, &under_sky(seen_at(0.8), 9.0), 4);
-    assert!((mean(&film, Term::Final) - 0.25).abs() < 1e-6);
+    assert!((mean(&film, Term::FinalAll) - 0.25).abs() < 1e-6);
 }

@@ -1,7 +1,7 @@
 //! What samples add up to: a sum a pixel for every term, and how far the mean may be off.
 //!
 //! ```text
-//! pixel  light 5 x RGB | open | coverage | squares of each term's luminance 7    24 x f64, row-major
+//! pixel  light 5 x RGB | open | coverage | squares of each term's luminance 8    25 x f64, row-major
 //! ```
 
 use bytemuck::{Pod, Zeroable};
@@ -9,6 +9,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use crate::color::luminance;
+use crate::settings::{Lighting, SurfaceView};
 
 /// A part of the light that reaches the eye, linear RGB, nits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -25,20 +26,42 @@ pub enum Term {
     SpecularAll,
     /// Share of the hemisphere without anything near, cosine-weighted, in all channels; 0 where nothing is.
     Ao,
-    /// Direct, all diffuse, all specular.
-    Final,
+    /// Direct, and the first bounce of both lobes.
+    FinalFirst,
+    /// Direct, and all bounces of both lobes.
+    FinalAll,
 }
 
 impl Term {
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Direct,
         Self::DiffuseFirst,
         Self::DiffuseAll,
         Self::SpecularFirst,
         Self::SpecularAll,
         Self::Ao,
-        Self::Final,
+        Self::FinalFirst,
+        Self::FinalAll,
     ];
+
+    /// What a view of surfaces shows where light goes on `bounces` times in the octree: the first bounce with
+    /// none, all of them with any. `None` for what is no light of surfaces.
+    pub fn of(part: SurfaceView, bounces: u32) -> Option<Self> {
+        let is_first = bounces == 0;
+        let either = |first, all| Some(if is_first { first } else { all });
+        match part {
+            SurfaceView::Final => either(Self::FinalFirst, Self::FinalAll),
+            SurfaceView::Direct => Some(Self::Direct),
+            SurfaceView::Diffuse => either(Self::DiffuseFirst, Self::DiffuseAll),
+            SurfaceView::Specular => either(Self::SpecularFirst, Self::SpecularAll),
+            SurfaceView::Ao => Some(Self::Ao),
+            SurfaceView::Irradiance
+            | SurfaceView::Albedo
+            | SurfaceView::Normal
+            | SurfaceView::Depth
+            | SurfaceView::Roughness => None,
+        }
+    }
 }
 
 const LIGHTS: usize = 5;
@@ -64,11 +87,11 @@ impl Sample {
     }
 
     fn of(&self, term: Term) -> DVec3 {
+        let sum = |parts: [Term; 3]| parts.into_iter().map(|part| self.light[part as usize]).sum();
         match term {
             Term::Ao => DVec3::splat(self.open),
-            Term::Final => {
-                [Term::Direct, Term::DiffuseAll, Term::SpecularAll].into_iter().map(|part| self.of(part)).sum()
-            }
+            Term::FinalFirst => sum([Term::Direct, Term::DiffuseFirst, Term::SpecularFirst]),
+            Term::FinalAll => sum([Term::Direct, Term::DiffuseAll, Term::SpecularAll]),
             _ => self.light[term as usize],
         }
     }
@@ -108,13 +131,22 @@ impl PixelSums {
 }
 
 /// Sums of a picture in the making.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Film {
     size_px: [u32; 2],
+    /// That its samples took.
+    pub(super) secs: f64,
     /// By row: how many samples each of its pixels has.
     pub(super) samples: Vec<u32>,
     /// Row by row from the top.
     pub(super) pixels: Vec<PixelSums>,
+}
+
+/// Alike in every bit of the picture, however long it took.
+impl PartialEq for Film {
+    fn eq(&self, other: &Self) -> bool {
+        (self.size_px, &self.samples, &self.pixels) == (other.size_px, &other.samples, &other.pixels)
+    }
 }
 
 /// How far means are off, in the unit of the term.
@@ -131,7 +163,30 @@ pub struct StandardError {
 impl Film {
     pub fn new(size_px: [u32; 2]) -> Self {
         let [width, height] = size_px.map(|side| side as usize);
-        Self { size_px, samples: vec![0; height], pixels: vec![PixelSums::default(); width * height] }
+        let pixels = vec![PixelSums::default(); width * height];
+        Self { size_px, secs: 0.0, samples: vec![0; height], pixels }
+    }
+
+    /// A picture that was kept; `None` where these are no sums of that many samples.
+    pub fn from_pixels(size_px: [u32; 2], samples: u32, secs: f64, pixels: Vec<PixelSums>) -> Option<Self> {
+        let [width, height] = size_px.map(|side| side as usize);
+        let most = f64::from(samples);
+        let is_sum = |sums: &PixelSums| {
+            let values: &[f64] = bytemuck::cast_slice(std::slice::from_ref(sums));
+            values.iter().all(|value| value.is_finite() && *value >= 0.0) && sums.open.max(sums.coverage) <= most
+        };
+        let fits = pixels.len() == width * height && pixels.iter().all(is_sum) && secs >= 0.0;
+        fits.then(|| Self { size_px, secs, samples: vec![samples; height], pixels })
+    }
+
+    /// Rows from the top.
+    pub fn pixels(&self) -> &[PixelSums] {
+        &self.pixels
+    }
+
+    /// That its samples took, on as many threads as there were.
+    pub fn secs(&self) -> f64 {
+        self.secs
     }
 
     pub fn size_px(&self) -> [u32; 2] {
@@ -147,6 +202,20 @@ impl Film {
     pub fn image(&self, term: Term) -> Vec<[f32; 3]> {
         let mean = |(sums, samples): (&PixelSums, f64)| (sums.sum(term) / samples.max(1.0)).as_vec3().to_array();
         self.counted().map(mean).collect()
+    }
+
+    /// What the view of surfaces shows under `lighting`, as the engine reads it: linear RGB and the share
+    /// where a surface is; beside surfaces the sky, where that view shows it. `None`: see [`Term::of`].
+    pub fn shown(&self, part: SurfaceView, lighting: &Lighting) -> Option<Vec<[f32; 4]>> {
+        let term = Term::of(part, lighting.bounces)?;
+        let shows_sky = matches!(part, SurfaceView::Final | SurfaceView::Direct);
+        let sky_nits = DVec3::from_array(if shows_sky { lighting.sky_nits } else { [0.0; 3] });
+        let pixel = |(sums, samples): (&PixelSums, f64)| {
+            let coverage = sums.coverage / samples.max(1.0);
+            let light = sums.sum(term) / samples.max(1.0) + sky_nits * (1.0 - coverage);
+            light.extend(coverage).as_vec4().to_array()
+        };
+        Some(self.counted().map(pixel).collect())
     }
 
     /// Share of each pixel where a surface is seen.

@@ -42,9 +42,6 @@ pub struct Terms<'a> {
     pub direct: Option<&'a GpuBuffer>,
     /// Mean radiance of the hemisphere and its open share.
     pub diffuse: Option<&'a GpuBuffer>,
-    /// Which of the two `diffuse` holds.
-    pub has_radiance: bool,
-    pub has_occlusion: bool,
     pub specular: Option<&'a GpuBuffer>,
 }
 
@@ -60,8 +57,7 @@ pub fn record(
     let flag = |on: bool| f64::from(u8::from(on));
     let constants = [
         ("TERM", f64::from(term_number(shown_as))),
-        ("RADIANCE", flag(terms.diffuse.is_some() && terms.has_radiance)),
-        ("OCCLUSION", flag(terms.diffuse.is_some() && terms.has_occlusion)),
+        ("DIFFUSE", flag(terms.diffuse.is_some())),
         ("SPECULAR", flag(terms.specular.is_some())),
     ];
     // A buffer that no term reads is bound in place of one that is not there.

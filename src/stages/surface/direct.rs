@@ -1,8 +1,8 @@
 //! Adds one light to the direct light of what the camera sees: BRDF times irradiance, hidden by the light's
 //! shadow map.
 //!
-//! A shadow ray starts above the triangle by what the map's texels rise beside the point: at most √2 texels,
-//! for light that grazes, and [`super::SHADOW_OFFSET_CELLS`].
+//! A texel of the map hides a surface if what it sees lies above the surface's plane, by more than
+//! [`super::SHADOW_HEIGHT_TEXELS`] and [`super::SHADOW_HEIGHT_CELLS`]: no offset moves the shadow's edge.
 
 use super::Lit;
 use crate::gpu::{Gpu, Recorder};

@@ -1,0 +1,109 @@
+//! `octolume render --reference`: the picture of light that the path tracer makes, on the CPU.
+
+use std::path::Path;
+
+use clap::Args;
+use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, Scene, Term};
+use octolume::accuracy::picture_error::Shown;
+use octolume::disk_cache::DiskCache;
+use octolume::export;
+use octolume::prepare::Prepared;
+use octolume::settings::{Settings, SurfaceView, View};
+
+use super::{Usage, output};
+
+const SAMPLES: u32 = 64;
+
+/// The path tracer in place of cones.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Reference")]
+pub struct ReferenceOptions {
+    /// Traces paths through the triangles instead, on the CPU: what cones are measured against. Shows
+    /// --view final, direct, diffuse, specular or ao, with --bounces 0 the first bounce and else all
+    #[arg(long)]
+    pub reference: bool,
+    /// Paths a pixel and lobe; otherwise 64
+    #[arg(long, value_name = "N", requires = "reference", value_parser = clap::value_parser!(u32).range(1..))]
+    samples: Option<u32>,
+    /// Another number, other noise; otherwise 0
+    #[arg(long, value_name = "N", requires = "reference")]
+    seed: Option<u64>,
+    /// Spreads a pixel's paths over all of it, so that edges are smooth; otherwise all go through its centre
+    #[arg(long, requires = "reference")]
+    smooth_edges: bool,
+}
+
+impl ReferenceOptions {
+    /// Is the view one that paths show? `is_named`: by an option, not by settings.
+    pub fn choose_view(&self, settings: &mut Settings, is_named: bool) -> Result<(), Usage> {
+        let look = &mut settings.look;
+        if look.view != View::Surfaces && !is_named {
+            (look.view, look.surface) = (View::Surfaces, SurfaceView::Final);
+        }
+        let is_light = look.view == View::Surfaces && Term::of(look.surface, 0).is_some();
+        let possible = || Usage("paths show --view final, direct, diffuse, specular or ao".to_owned());
+        if is_light { Ok(()) } else { Err(possible()) }
+    }
+
+    /// Traces a picture, writes it, and says how far off it may be.
+    pub fn draw(
+        &self,
+        (prepared, disk): (&Prepared, Option<&DiskCache>),
+        settings: &Settings,
+        size_px: [u32; 2],
+        file: &Path,
+    ) -> anyhow::Result<()> {
+        let pixel = if self.smooth_edges { PixelSampling::Area } else { PixelSampling::Centre };
+        let reflection = Reflection::MetallicRoughness;
+        let options = Options { size_px, seed: self.seed.unwrap_or(0), pixel, reflection };
+        let film = traced((prepared, disk), settings, options, self.samples.unwrap_or(SAMPLES))?;
+        output::message(&summary(&film, settings));
+        write(&film, settings, file)
+    }
+}
+
+/// A picture with as many samples a pixel, which go on from what `disk` holds and are kept there.
+pub fn traced(
+    (prepared, disk): (&Prepared, Option<&DiskCache>),
+    settings: &Settings,
+    options: Options,
+    samples: u32,
+) -> anyhow::Result<Film> {
+    let scene = Scene::new(prepared, settings, options)?;
+    output::warnings(scene.warnings());
+    let kept = disk.map(|disk| (disk, scene.key()));
+    let stored = kept.as_ref().and_then(|(disk, key)| disk.load_film(key, options.size_px, samples));
+    let mut film = stored.unwrap_or_else(|| scene.new_film());
+    output::with_progress("tracing paths", |progress| scene.trace(&mut film, samples, progress))?;
+    if let Some((disk, key)) = kept
+        && let Err(error) = disk.store_film(&key, &film)
+    {
+        let folder = disk.folder().display();
+        output::message(&format!("warning: the traced picture cannot be kept in {folder}: {error}"));
+    }
+    Ok(film)
+}
+
+fn summary(film: &Film, settings: &Settings) -> String {
+    let term = Term::of(settings.look.surface, settings.lighting.bounces);
+    let error = term.map(|term| film.standard_error(term)).unwrap_or_default();
+    let percent = |share: f64| 100.0 * share;
+    let relative_mean = if error.rms > 0.0 { error.relative * error.of_mean / error.rms } else { 0.0 };
+    format!(
+        "{} samples a pixel in {:.1} s; standard error {:.2} % of the mean (root mean square over the pixels), {:.3} % of the whole picture",
+        film.samples(),
+        film.secs(),
+        percent(error.relative),
+        percent(relative_mean)
+    )
+}
+
+fn write(film: &Film, settings: &Settings, file: &Path) -> anyhow::Result<()> {
+    let part = settings.look.surface;
+    let light = film.shown(part, &settings.lighting).unwrap_or_default();
+    if super::render::is_exr(file) {
+        return Ok(export::write_exr(file, film.size_px(), &light)?);
+    }
+    let picture = Shown::new(&settings.look, part, &light).picture(&light, film.size_px());
+    Ok(export::write_png(file, &image::DynamicImage::from(picture).into_rgba8(), settings)?)
+}
