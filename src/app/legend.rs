@@ -2,9 +2,9 @@
 
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
 
-use super::reference::difference_color;
 use super::scale_ticks::{Tick, ticks};
 use super::theme;
+use crate::accuracy::picture_error::difference_color;
 use crate::color::srgb_byte;
 use crate::settings::{ColorBy, Look, Slice, SliceValue, SurfaceView, ToneCurve, View};
 use crate::stages::view::GHOST_COLORS;

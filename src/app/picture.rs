@@ -92,6 +92,7 @@ impl App {
         let is_full = stage.picture().map(GpuTexture::size_px) == Some(full_px) && !stage.engine.shows_nothing();
         let shown = Shown {
             seen: Seen { prepared: Arc::clone(&ready.prepared), settings: settings.clone(), size_px: full_px },
+            disk: self.loader.disk(),
             engine: &stage.engine,
             results: stage.results,
             is_finished: is_full && stage.working().is_none() && stage.error().is_none(),

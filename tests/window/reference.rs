@@ -14,7 +14,12 @@ fn window() -> Window {
     settings.look.surface = SurfaceView::Direct;
     settings.lighting.sky_nits = [100.0; 3];
     let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
-    ["Timings", "Octree", "Frame plan", "Reference"].into_iter().for_each(|section| window.click(section));
+    ["Scene", "Discretization", "Filter", "Timings", "Octree", "Frame plan", "Reference"]
+        .into_iter()
+        .for_each(|section| window.click(section));
+    // A small view: paths take their time.
+    window.0.set_size(vec2(820.0, 440.0));
+    window.settle();
     window
 }
 
@@ -127,7 +132,6 @@ fn errors_of_the_parts_are_listed() {
 fn what_lies_over_the_picture_is_saved_as_colours_and_as_light() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = traced();
-    ["Scene", "Discretization", "Filter"].into_iter().for_each(|section| window.click(section));
     window.type_into("Save to", &folder.path().display().to_string());
     for way in ["Cones", "Paths"] {
         window.click(way);

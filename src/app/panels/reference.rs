@@ -5,8 +5,9 @@ use egui::{Button, ProgressBar, RichText, Ui};
 
 use super::table::{self, Cell};
 use super::{choice, control, milliseconds, nothing, number, slider, unless};
+use crate::accuracy::picture_error::PictureError;
 use crate::app::commands::Command;
-use crate::app::reference::{Comparison, Measured, Order, PARTS, Reference, Traced};
+use crate::app::reference::{Comparison, MeasuredPart, Order, PARTS, Reference, Traced};
 use crate::app::scale_ticks::short;
 use crate::app::theme;
 use crate::gpu::KernelTiming;
@@ -97,11 +98,11 @@ fn compare_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, orders: &mut Vec<Order>) 
     });
 }
 
-fn errors_ui(ui: &mut Ui, traced: &Traced, measured: Option<&Measured>) {
+fn errors_ui(ui: &mut Ui, traced: &Traced, measured: &[MeasuredPart]) {
     let rows = PARTS.into_iter().map(|part| {
-        let error = measured.and_then(|measured| measured.parts.iter().find(|measured| measured.part == part));
+        let error = measured.iter().find(|measured| measured.part == part);
         let cell = |value: Option<f64>| Cell::new(value.map_or("–".to_owned(), short));
-        let of = |value: fn(&crate::accuracy::picture_error::PictureError) -> f64| cell(error.map(|e| value(&e.error)));
+        let of = |value: fn(&PictureError) -> f64| cell(error.map(|e| value(&e.error)));
         vec![
             Cell::new(name(part)),
             of(|error| error.rel_mse),

@@ -5,14 +5,19 @@ use std::sync::Arc;
 
 use super::measuring::{self, ConeParts, OfParts};
 use super::pictures::{self, ConePicture, OfPicture};
+use super::tracing::Run;
 use super::{Overlay, PARTS, Reference, Seen, Tracing};
+use crate::accuracy::picture_error::Shown as ShownAs;
 use crate::app::background::{Background, Outcome};
+use crate::disk_cache::DiskCache;
 use crate::engine::{Engine, EngineError};
-use crate::settings::View;
+use crate::settings::{ToneCurve, View};
 
 /// What the window shows in a frame.
 pub struct Shown<'a> {
     pub seen: Seen,
+    /// Where traced pictures are kept.
+    pub disk: Option<&'a DiskCache>,
     pub engine: &'a Engine,
     /// Counts the engine's results.
     pub results: u64,
@@ -27,12 +32,12 @@ impl Reference {
     pub fn follow(&mut self, ctx: &egui::Context, shown: &Shown<'_>) -> Result<(), String> {
         let collected = self.collect(ctx);
         if std::mem::take(&mut self.is_ordered) {
-            self.start(ctx, &shown.seen);
+            self.start(ctx, shown);
         }
         self.is_of_shown = self.seen.as_ref().is_some_and(|seen| seen.is(&shown.seen));
         let looks = &shown.seen.settings.look;
-        let is_compared = self.is_of_shown && looks.view == View::Surfaces && PARTS.contains(&looks.surface);
-        self.is_behind = is_compared && self.traced.is_some();
+        self.is_compared = self.is_of_shown && looks.view == View::Surfaces && PARTS.contains(&looks.surface);
+        self.is_behind = self.is_compared && self.traced.is_some();
         if !self.is_behind || !shown.is_finished || !self.is_looked_at() {
             return collected;
         }
@@ -53,35 +58,39 @@ impl Reference {
         if self.pictures.collect() {
             self.overlay = self.pictures.get().map(|(_, pictures)| Overlay::new(ctx, pictures));
         }
-        self.measured.collect();
+        let is_measured = self.measured.collect();
+        if let Some((_, Err(error))) = self.measured.get().filter(|_| is_measured) {
+            return Err(error.to_string());
+        }
         let Some(run) = &self.run else { return Ok(()) };
         let outcome = run.poll();
         if let Some(traced) = run.take_published() {
             self.traced = Some(traced);
         }
-        match outcome {
-            Outcome::Running => return Ok(()),
-            Outcome::Done(Ok(kept)) => self.kept = Some(kept),
-            Outcome::Done(Err(sentence)) => {
-                self.run = None;
-                return Err(sentence);
-            }
-            Outcome::Died => {
-                self.run = None;
-                return Err("the path tracer ended unexpectedly".to_owned());
-            }
+        if matches!(outcome, Outcome::Running) {
+            return Ok(());
         }
         self.run = None;
-        Ok(())
+        match outcome {
+            Outcome::Running => Ok(()),
+            Outcome::Done(Ok(ended)) => {
+                self.kept = Some(ended.film);
+                ended.warning.map_or(Ok(()), Err)
+            }
+            Outcome::Done(Err(sentence)) => Err(sentence),
+            Outcome::Died => Err("the path tracer ended unexpectedly".to_owned()),
+        }
     }
 
     /// Traces what is seen; goes on where the same was stopped.
-    fn start(&mut self, ctx: &egui::Context, seen: &Seen) {
-        if !self.seen.as_ref().is_some_and(|traced| traced.is(seen)) {
+    fn start(&mut self, ctx: &egui::Context, shown: &Shown<'_>) {
+        if !self.seen.as_ref().is_some_and(|traced| traced.is(&shown.seen)) {
             (self.kept, self.traced) = (None, None);
         }
-        self.seen = Some(seen.clone());
-        self.run = Some(Tracing::start(ctx, seen.clone(), self.kept.take(), self.samples));
+        self.seen = Some(shown.seen.clone());
+        let disk = shown.disk.cloned();
+        let run = Run { seen: shown.seen.clone(), film: self.kept.take(), samples: self.samples, disk };
+        self.run = Some(Tracing::start(ctx, run));
     }
 
     /// Reads what is shown, where that is another result than last time.
@@ -91,13 +100,16 @@ impl Reference {
         }
         let settings = &shown.seen.settings;
         if let Some(pixels) = shown.engine.read_surfaces()? {
+            let (part, curve) = (settings.look.surface, settings.look.tone_curve);
             let picture = ConePicture {
-                part: settings.look.surface,
+                part,
                 size_px: shown.seen.size_px,
                 pixels,
-                exposure: shown.engine.exposure(),
-                curve: settings.look.tone_curve,
-                has_sky: settings.lighting.sky_nits != [0.0; 3],
+                shown: match part.is_light() {
+                    true => ShownAs { exposure: shown.engine.exposure(), curve },
+                    false => ShownAs { exposure: 1.0, curve: ToneCurve::Linear },
+                },
+                shows_sky: part.is_light() && settings.lighting.sky_nits != [0.0; 3],
             };
             self.cones = Some((shown.results, Arc::new(picture)));
         }
@@ -111,16 +123,13 @@ impl Reference {
         }
         let (results, parts) = self.parts.get_or_insert_default();
         if *results != shown.results {
-            let look = &shown.seen.settings.look;
-            let (size_px, exposure) = (shown.seen.size_px, shown.engine.exposure());
-            let empty = ConeParts { size_px, exposure, curve: look.tone_curve, pixels: Vec::new() };
-            (*results, *parts) = (shown.results, Arc::new(empty));
+            let (size_px, look) = (shown.seen.size_px, shown.seen.settings.look);
+            (*results, *parts) = (shown.results, Arc::new(ConeParts { size_px, look, pixels: Vec::new() }));
         }
         if let Some(part) = parts.missing()
             && let Some(parts) = Arc::get_mut(parts)
         {
-            let pixels = shown.engine.read_surface_part(part)?;
-            parts.pixels.push(pixels.map(|pixels| pixels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect()));
+            parts.pixels.push(shown.engine.read_surface_part(part)?);
         }
         Ok(())
     }
@@ -131,7 +140,7 @@ impl Reference {
         let of = OfPicture { cones: Arc::clone(cones), traced: Arc::clone(traced) };
         if self.pictures.wants(&of) {
             let work_of = of.clone();
-            let work = Background::start(ctx, move |_| pictures::draw(&work_of.cones, work_of.paths()));
+            let work = Background::start(ctx, move |_| pictures::draw(&work_of));
             self.pictures.start(of, work);
         }
         let read = self.parts.as_ref().filter(|(of, parts)| of == results && parts.missing().is_none());

@@ -4,17 +4,17 @@
 use std::sync::Arc;
 
 use super::tracing::{PARTS, Traced};
-use crate::accuracy::picture_error::PictureError;
-use crate::settings::{SurfaceView, ToneCurve};
+use crate::accuracy::picture_error::{CompareError, LightPixel, PictureError, Shown, compare};
+use crate::settings::{Look, SurfaceView};
 
 /// The parts of a finished picture of the engine that were read so far.
 #[derive(Default)]
 pub struct ConeParts {
     pub size_px: [u32; 2],
-    pub exposure: f64,
-    pub curve: ToneCurve,
+    /// How it is shown.
+    pub look: Look,
     /// In the order of [`PARTS`]; `None`: the engine has not made it.
-    pub pixels: Vec<Option<Vec<[f32; 3]>>>,
+    pub pixels: Vec<Option<Vec<LightPixel>>>,
 }
 
 impl ConeParts {
@@ -24,25 +24,20 @@ impl ConeParts {
     }
 }
 
-/// Errors of the parts that both have.
-pub struct Measured {
-    pub parts: Vec<MeasuredPart>,
-}
-
+/// Errors of a part that both have.
 pub struct MeasuredPart {
     pub part: SurfaceView,
     pub error: PictureError,
 }
 
-pub fn measure(cones: &ConeParts, traced: &Traced) -> Measured {
-    let measured = PARTS.into_iter().zip(&cones.pixels).filter_map(|(part, pixels)| {
-        // Shares have no exposure.
-        let (exposure, curve) = if part.is_light() { (cones.exposure, cones.curve) } else { (1.0, ToneCurve::Linear) };
-        let paths = &traced.part(part)?.image;
-        let error = PictureError::of(pixels.as_ref()?, paths, cones.size_px, exposure, curve);
-        Some(MeasuredPart { part, error })
+/// Each part is shown as its paths ask for.
+pub fn measure(cones: &ConeParts, traced: &Traced) -> Result<Vec<MeasuredPart>, CompareError> {
+    let both = PARTS.into_iter().zip(&cones.pixels).filter_map(|(part, pixels)| {
+        let (pixels, paths) = (pixels.as_ref()?, &traced.part(part)?.image);
+        let error = compare(pixels, paths, cones.size_px, &Shown::new(&cones.look, part, paths));
+        Some(error.map(|error| MeasuredPart { part, error }))
     });
-    Measured { parts: measured.collect() }
+    both.collect()
 }
 
 /// What errors are of.

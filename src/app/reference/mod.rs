@@ -23,14 +23,15 @@ use image::RgbaImage;
 
 pub use self::follow::Shown;
 use self::latest::Latest;
-pub use self::measuring::Measured;
+pub use self::measuring::MeasuredPart;
 use self::measuring::{ConeParts, OfParts};
 use self::overlay::Overlay;
-pub use self::pictures::difference_color;
 use self::pictures::{ConePicture, OfPicture, Pictures};
 pub use self::seen::Seen;
-use self::tracing::{Kept, Tracing};
+use self::tracing::Tracing;
 pub use self::tracing::{PARTS, Traced};
+use crate::accuracy::path_tracer::Film;
+use crate::accuracy::picture_error::CompareError;
 
 /// What lies over the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -68,14 +69,16 @@ pub struct Reference {
     /// What was traced, or is being; whether that is what is shown.
     seen: Option<Seen>,
     is_of_shown: bool,
+    /// It is, and a part of it is shown that paths tell apart.
+    is_compared: bool,
     run: Option<Tracing>,
-    kept: Option<Kept>,
+    kept: Option<Film>,
     traced: Option<Arc<Traced>>,
     /// What the engine shows, and which of its results that is.
     cones: Option<(u64, Arc<ConePicture>)>,
     parts: Option<(u64, Arc<ConeParts>)>,
     pictures: Latest<OfPicture, Pictures>,
-    measured: Latest<OfParts, Measured>,
+    measured: Latest<OfParts, Result<Vec<MeasuredPart>, CompareError>>,
     overlay: Option<Overlay>,
     /// Something is still to be read, drawn or measured.
     is_behind: bool,
@@ -91,6 +94,7 @@ impl Default for Reference {
             is_ordered: false,
             seen: None,
             is_of_shown: false,
+            is_compared: false,
             run: None,
             kept: None,
             traced: None,
@@ -133,8 +137,9 @@ impl Reference {
     }
 
     /// Of the picture that is shown; while it is measured, of that before.
-    pub fn measured(&self) -> Option<&Measured> {
-        self.measured.get().filter(|_| self.is_of_shown).map(|(_, measured)| measured)
+    pub fn measured(&self) -> &[MeasuredPart] {
+        let measured = self.measured.get().filter(|_| self.is_of_shown);
+        measured.and_then(|(_, measured)| measured.as_deref().ok()).unwrap_or_default()
     }
 
     /// Work that goes on, or waits for the picture or for a person to rest.
@@ -151,17 +156,17 @@ impl Reference {
         self.is_open || self.comparison != Comparison::Cones
     }
 
-    /// What the shown differences of the last colour are, where they are shown.
+    /// The difference that has the last colour of the scale, where differences are shown.
     pub fn most_difference(&self) -> Option<f64> {
-        let cones = self.overlaid().filter(|_| self.comparison == Comparison::Difference)?;
-        Some(cones.most_difference())
+        let (_, pictures) = self.overlaid().filter(|_| self.comparison == Comparison::Difference)?;
+        Some(pictures.most_difference)
     }
 
     /// What lies over the picture, if anything: it is of the same picture, and of the same part.
-    fn overlaid(&self) -> Option<&ConePicture> {
-        let (_, shown) = self.cones.as_ref().filter(|_| self.is_of_shown && self.comparison != Comparison::Cones)?;
-        let (of, _) = self.pictures.get()?;
-        (of.cones.part == shown.part && of.cones.size_px == shown.size_px).then_some(&of.cones)
+    fn overlaid(&self) -> Option<&(OfPicture, Pictures)> {
+        let (_, shown) = self.cones.as_ref().filter(|_| self.is_compared && self.comparison != Comparison::Cones)?;
+        let is_same = |cones: &ConePicture| cones.part == shown.part && cones.size_px == shown.size_px;
+        self.pictures.get().filter(|(of, _)| is_same(&of.cones))
     }
 
     /// Paints it. Returns where the divider was dragged to.
@@ -173,7 +178,7 @@ impl Reference {
 
     /// The same over the pixels of the picture.
     pub fn lay_over(&self, picture: &mut RgbaImage) {
-        if let Some((of, pictures)) = self.pictures.get().filter(|_| self.overlaid().is_some())
+        if let Some((of, pictures)) = self.overlaid()
             && of.cones.size_px == [picture.width(), picture.height()]
         {
             overlay::lay_over(picture, pictures, self.comparison, self.divider);
@@ -182,7 +187,7 @@ impl Reference {
 
     /// The light that is shown, over that of cones, which `pixels` holds.
     pub fn lay_light_over(&self, pixels: &mut [[f32; 4]]) {
-        if let Some((of, _)) = self.pictures.get().filter(|_| self.overlaid().is_some()) {
+        if let Some((of, _)) = self.overlaid() {
             overlay::lay_light_over(pixels, of, self.comparison, self.divider);
         }
     }

@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn a_picture_is_wiped_at_the_divider() {
         let of = |value| RgbaImage::from_pixel(4, 1, Rgba([value; 4]));
-        let pictures = Pictures { paths: of(1), difference: of(2) };
+        let pictures = Pictures { paths: of(1), difference: of(2), most_difference: 1.0 };
         let row = |comparison| {
             let mut picture = of(0);
             lay_over(&mut picture, &pictures, comparison, 0.5);

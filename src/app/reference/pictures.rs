@@ -3,49 +3,23 @@
 
 use std::sync::Arc;
 
-use colorous::Color;
-use image::{Rgba, RgbaImage};
-use rayon::prelude::*;
+use image::{DynamicImage, Rgba, RgbaImage};
 
 use super::tracing::Traced;
-use crate::color::{luminance, srgb_byte};
-use crate::settings::{SurfaceView, ToneCurve};
+use crate::accuracy::picture_error::{LightPixel, Shown, difference_map, difference_scale};
+use crate::color::srgb_byte;
+use crate::settings::SurfaceView;
 use crate::stages::view::BACKGROUND;
-use crate::stages::view::show_surfaces::tone_mapped;
-
-/// Of what white stands for: differences this large have the last colour of the scale.
-const MOST_OF_WHITE: f64 = 0.25;
 
 /// A finished picture of the engine, as light.
 pub struct ConePicture {
     pub part: SurfaceView,
     pub size_px: [u32; 2],
-    /// Rows from the top; the last channel is 1 where a surface is.
-    pub pixels: Vec<[f32; 4]>,
-    pub exposure: f64,
-    pub curve: ToneCurve,
-    pub has_sky: bool,
-}
-
-impl ConePicture {
-    fn is_drawn(&self, pixel: &[f32; 4]) -> bool {
-        pixel[3] > 0.0 || self.part.is_light() && self.has_sky
-    }
-
-    /// As the engine draws it.
-    fn color(&self, value: [f32; 3]) -> Rgba<u8> {
-        let shown = |channel: f32| match self.part.is_light() {
-            true => tone_mapped(self.curve, self.exposure * f64::from(channel)) as f32,
-            false => channel,
-        };
-        let [r, g, b] = value.map(|channel| srgb_byte(shown(channel)));
-        Rgba([r, g, b, u8::MAX])
-    }
-
-    /// The difference that has the last colour of the scale, in the unit of the part.
-    pub fn most_difference(&self) -> f64 {
-        if self.part.is_light() { MOST_OF_WHITE / self.exposure } else { MOST_OF_WHITE }
-    }
+    /// Rows from the top.
+    pub pixels: Vec<LightPixel>,
+    pub shown: Shown,
+    /// The sky is seen beside surfaces.
+    pub shows_sky: bool,
 }
 
 /// Which pictures are drawn.
@@ -57,7 +31,7 @@ pub struct OfPicture {
 
 impl OfPicture {
     /// What paths say of the part that is shown.
-    pub fn paths(&self) -> &[[f32; 3]] {
+    pub fn paths(&self) -> &[LightPixel] {
         self.traced.part(self.cones.part).map_or(&[], |part| &part.image)
     }
 }
@@ -72,61 +46,49 @@ impl PartialEq for OfPicture {
 pub struct Pictures {
     pub paths: RgbaImage,
     pub difference: RgbaImage,
+    /// The difference of luminance with the last colour of the scale.
+    pub most_difference: f64,
 }
 
-pub fn draw(cones: &ConePicture, paths: &[[f32; 3]]) -> Pictures {
-    let [r, g, b] = BACKGROUND.map(srgb_byte);
-    let background = Rgba([r, g, b, u8::MAX]);
-    let most = cones.most_difference();
-    let both = || cones.pixels.par_iter().zip(paths);
-    let traced = both().map(|(cone, path)| if cones.is_drawn(cone) { cones.color(*path) } else { background });
-    let difference = both().map(|(cone, path)| {
-        let light = |[r, g, b]: [f32; 3]| luminance([r, g, b].map(f64::from));
-        let [r, g, b] = difference_color((light([cone[0], cone[1], cone[2]]) - light(*path)) / most);
-        Rgba([r, g, b, u8::MAX])
-    });
-    Pictures { paths: picture(cones.size_px, traced), difference: picture(cones.size_px, difference) }
-}
-
-/// Black where there are no pixels.
-fn picture([width, height]: [u32; 2], pixels: impl IndexedParallelIterator<Item = Rgba<u8>>) -> RgbaImage {
-    let mut picture = RgbaImage::new(width, height);
-    let pixels: Vec<Rgba<u8>> = pixels.collect();
-    picture.pixels_mut().zip(pixels).for_each(|(pixel, value)| *pixel = value);
-    picture
-}
-
-/// sRGB bytes: red where cones are brighter, blue where they are darker, white where they agree.
-pub fn difference_color(part: f64) -> [u8; 3] {
-    let Color { r, g, b } = colorous::RED_BLUE.eval_continuous(0.5 - 0.5 * part.clamp(-1.0, 1.0));
-    [r, g, b]
+pub fn draw(of: &OfPicture) -> Pictures {
+    let (cones, paths) = (&of.cones, of.paths());
+    let mut picture = DynamicImage::from(cones.shown.picture(paths, cones.size_px)).into_rgba8();
+    if !cones.shows_sky {
+        let [r, g, b] = BACKGROUND.map(srgb_byte);
+        let beside = picture.pixels_mut().zip(paths).filter(|(_, path)| path[3] == 0.0);
+        beside.for_each(|(pixel, _)| *pixel = Rgba([r, g, b, u8::MAX]));
+    }
+    let most_difference = difference_scale(paths);
+    let difference = difference_map(&cones.pixels, paths, cones.size_px, most_difference);
+    Pictures { paths: picture, difference, most_difference }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::tracing::TracedPart;
     use super::*;
+    use crate::settings::ToneCurve;
 
-    fn cones(part: SurfaceView) -> ConePicture {
-        let pixels = vec![[0.5, 0.5, 0.5, 1.0], [0.0; 4]];
-        let size_px = [2, 1];
-        ConePicture { part, size_px, pixels, exposure: 2.0, curve: ToneCurve::Linear, has_sky: false }
+    fn drawn(part: SurfaceView, exposure: f64, cone: f32, path: f32) -> Pictures {
+        let pixels = vec![[cone, cone, cone, 1.0], [0.0; 4]];
+        let shown = Shown { exposure, curve: ToneCurve::Linear };
+        let cones = ConePicture { part, size_px: [2, 1], pixels, shown, shows_sky: false };
+        let image = vec![[path, path / 2.0, 0.0, 1.0], [0.0; 4]];
+        let traced = Traced { samples: 1, secs: 0.0, parts: vec![TracedPart { part, image, relative_error: 0.0 }] };
+        draw(&OfPicture { cones: Arc::new(cones), traced: Arc::new(traced) })
     }
 
     #[test]
-    fn paths_are_exposed_and_toned_as_cones_are() {
-        let drawn = draw(&cones(SurfaceView::Final), &[[0.5, 0.25, 0.0], [1.0; 3]]);
-        assert_eq!(drawn.paths.get_pixel(0, 0).0, [255, srgb_byte(0.5), 0, 255]);
-        assert_eq!(drawn.paths.get_pixel(1, 0).0[0], srgb_byte(BACKGROUND[0]), "nothing is there");
-        let drawn = draw(&cones(SurfaceView::Ao), &[[0.5; 3], [1.0; 3]]);
-        assert_eq!(drawn.paths.get_pixel(0, 0).0[0], srgb_byte(0.5), "a share has no exposure");
+    fn paths_are_exposed_as_cones_are() {
+        let picture = drawn(SurfaceView::Final, 2.0, 0.5, 0.5).paths;
+        assert_eq!(picture.get_pixel(0, 0).0, [255, srgb_byte(0.5), 0, 255]);
+        assert_eq!(picture.get_pixel(1, 0).0[0], srgb_byte(BACKGROUND[0]), "nothing is there");
     }
 
     #[test]
-    fn differences_are_signed_and_white_where_there_are_none() {
-        let at = |path: f32| draw(&cones(SurfaceView::Final), &[[path; 3], [0.0; 3]]).difference.get_pixel(0, 0).0;
-        let [same, brighter, darker] = [0.5, 0.4, 0.6].map(at);
-        assert!(same[..3].iter().all(|byte| *byte > 235), "{same:?}");
+    fn differences_are_signed() {
+        let [brighter, darker] = [1.0, 0.0].map(|cone| drawn(SurfaceView::Ao, 1.0, cone, 0.5).difference);
+        let [brighter, darker] = [brighter, darker].map(|picture| picture.get_pixel(0, 0).0);
         assert!(brighter[0] > brighter[2] && darker[2] > darker[0], "{brighter:?} {darker:?}");
-        assert_eq!(at(1e9), at(2e9), "the scale ends");
     }
 }

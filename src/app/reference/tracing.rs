@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 
 use super::seen::Seen;
 use crate::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, Scene, Term};
+use crate::accuracy::picture_error::LightPixel;
 use crate::app::background::{Background, Outcome};
-use crate::color::luminance;
+use crate::disk_cache::DiskCache;
 use crate::progress::Progress;
 use crate::settings::{Lighting, SurfaceView};
 
@@ -19,67 +20,29 @@ pub const PARTS: [SurfaceView; 5] =
 const PUBLISH_STEP: Duration = Duration::from_secs(4);
 
 /// What paths have said so far.
-#[derive(Debug)]
 pub struct Traced {
     pub samples: u32,
     pub secs: f64,
     pub parts: Vec<TracedPart>,
 }
 
-#[derive(Debug)]
 pub struct TracedPart {
     pub part: SurfaceView,
-    /// Means, linear RGB, rows from the top.
-    pub image: Vec<[f32; 3]>,
+    /// Rows from the top.
+    pub image: Vec<LightPixel>,
     /// Standard error of a pixel: root mean square over the picture, in parts of its mean luminance.
     pub relative_error: f64,
 }
 
-impl TracedPart {
-    fn new(film: &Film, lighting: &Lighting, part: SurfaceView) -> Self {
-        let mut image = vec![[0.0; 3]; film.size_px()[0] as usize * film.size_px()[1] as usize];
-        let mut variance = 0.0;
-        for term in terms(part, lighting.bounces) {
-            add(&mut image, film.image(*term));
-            // Each lobe has paths of its own.
-            variance += film.standard_error(*term).rms.powi(2);
-        }
-        if matches!(part, SurfaceView::Final | SurfaceView::Direct) {
-            let sky = lighting.sky_nits.map(|channel| channel as f32);
-            let background = film.coverage().into_iter().map(|share| sky.map(|channel| (1.0 - share) * channel));
-            add(&mut image, background);
-        }
-        let sum: f64 = image.iter().map(|pixel| luminance(pixel.map(f64::from))).sum();
-        let relative_error = if sum > 0.0 { variance.sqrt() * image.len() as f64 / sum } else { 0.0 };
-        Self { part, image, relative_error }
-    }
-}
-
-fn add(image: &mut [[f32; 3]], more: impl IntoIterator<Item = [f32; 3]>) {
-    for (pixel, more) in image.iter_mut().zip(more) {
-        pixel.iter_mut().zip(more).for_each(|(channel, more)| *channel += more);
-    }
-}
-
-/// What adds up to a part, as far as voxels of so many bounces hold light.
-fn terms(part: SurfaceView, bounces: u32) -> &'static [Term] {
-    match (part, bounces) {
-        (SurfaceView::Final, 0) => &[Term::Direct, Term::DiffuseFirst, Term::SpecularFirst],
-        (SurfaceView::Final, _) => &[Term::Final],
-        (SurfaceView::Direct, _) => &[Term::Direct],
-        (SurfaceView::Diffuse, 0) => &[Term::DiffuseFirst],
-        (SurfaceView::Diffuse, _) => &[Term::DiffuseAll],
-        (SurfaceView::Specular, 0) => &[Term::SpecularFirst],
-        (SurfaceView::Specular, _) => &[Term::SpecularAll],
-        (SurfaceView::Ao, _) => &[Term::Ao],
-        _ => &[],
-    }
-}
-
 impl Traced {
-    fn new(film: &Film, lighting: &Lighting, secs: f64) -> Self {
-        let parts = PARTS.into_iter().map(|part| TracedPart::new(film, lighting, part)).collect();
-        Self { samples: film.samples(), secs, parts }
+    fn new(film: &Film, lighting: &Lighting) -> Self {
+        let part = |part| {
+            let term = Term::of(part, lighting.bounces)?;
+            let relative_error = film.standard_error(term).relative;
+            Some(TracedPart { part, image: film.shown(part, lighting)?, relative_error })
+        };
+        let parts = PARTS.into_iter().filter_map(part).collect();
+        Self { samples: film.samples(), secs: film.secs(), parts }
     }
 
     pub fn part(&self, part: SurfaceView) -> Option<&TracedPart> {
@@ -87,30 +50,41 @@ impl Traced {
     }
 }
 
-/// A film in the making, and the time it took.
-pub struct Kept {
-    film: Film,
-    secs: f64,
+/// What a run goes on from, and where to.
+pub struct Run {
+    pub seen: Seen,
+    /// Of the same picture.
+    pub film: Option<Film>,
+    /// A pixel, at the end.
+    pub samples: u32,
+    /// Where traced pictures are kept.
+    pub disk: Option<DiskCache>,
+}
+
+/// What a run ends with.
+pub struct Ended {
+    pub film: Film,
+    /// Why it could not be kept on disk.
+    pub warning: Option<String>,
 }
 
 type Published = Arc<Mutex<Option<Arc<Traced>>>>;
 
-/// One run of the path tracer.
+/// A run on its threads.
 pub struct Tracing {
-    work: Background<Result<Kept, String>>,
+    work: Background<Result<Ended, String>>,
     published: Published,
 }
 
 impl Tracing {
-    /// Up to `samples` a pixel, going on from what was kept of the same picture.
-    pub fn start(ctx: &egui::Context, seen: Seen, kept: Option<Kept>, samples: u32) -> Self {
+    pub fn start(ctx: &egui::Context, run: Run) -> Self {
         let published = Published::default();
         let (slot, waker) = (Arc::clone(&published), ctx.clone());
         let publish = move |traced| {
             *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::new(traced));
             waker.request_repaint();
         };
-        let work = Background::start(ctx, move |progress| trace(&seen, kept, samples, progress, &publish));
+        let work = Background::start(ctx, move |progress| trace(run, progress, &publish));
         Self { work, published }
     }
 
@@ -119,7 +93,7 @@ impl Tracing {
         self.published.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
-    pub fn poll(&self) -> Outcome<Result<Kept, String>> {
+    pub fn poll(&self) -> Outcome<Result<Ended, String>> {
         self.work.poll()
     }
 
@@ -134,45 +108,39 @@ impl Tracing {
     }
 }
 
-fn trace(
-    seen: &Seen,
-    kept: Option<Kept>,
-    samples: u32,
-    progress: &Progress,
-    publish: &(impl Fn(Traced) + Sync),
-) -> Result<Kept, String> {
+fn trace(run: Run, progress: &Progress, publish: &(impl Fn(Traced) + Sync)) -> Result<Ended, String> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
     let pool = pool.map_err(|error| format!("no threads for the path tracer: {error}"))?;
     pool.install(|| {
-        let started = Instant::now();
-        let options = Options {
-            size_px: seen.size_px,
-            seed: 0,
-            pixel: PixelSampling::default(),
-            reflection: Reflection::default(),
-        };
+        let Run { seen, film, samples, disk } = run;
+        let (pixel, reflection) = (PixelSampling::Centre, Reflection::MetallicRoughness);
+        let options = Options { size_px: seen.size_px, seed: 0, pixel, reflection };
         let scene = Scene::new(&seen.prepared, &seen.settings, options).map_err(|error| error.to_string())?;
-        let mut kept = kept.unwrap_or_else(|| Kept { film: scene.new_film(), secs: 0.0 });
-        let before_secs = kept.secs;
-        step(&scene, &mut kept.film, samples, progress, |film| {
-            publish(Traced::new(film, &seen.settings.lighting, before_secs + started.elapsed().as_secs_f64()));
+        let kept = disk.map(|disk| (disk, scene.key()));
+        let stored = || kept.as_ref().and_then(|(disk, key)| disk.load_film(key, seen.size_px, samples));
+        let mut film = film.or_else(stored).unwrap_or_else(|| scene.new_film());
+        let is_whole = step(&scene, &mut film, samples, progress, |film| {
+            publish(Traced::new(film, &seen.settings.lighting));
         });
-        kept.secs = before_secs + started.elapsed().as_secs_f64();
-        Ok(kept)
+        let warning = kept.filter(|_| is_whole).and_then(|(disk, key)| {
+            let error = disk.store_film(&key, &film).err()?;
+            Some(format!("the traced picture cannot be kept in {}: {error}", disk.folder().display()))
+        });
+        Ok(Ended { film, warning })
     })
 }
 
-/// Sample by sample until there are as many as asked for, or nobody waits any more.
-fn step(scene: &Scene<'_>, film: &mut Film, samples: u32, progress: &Progress, publish: impl Fn(&Film)) {
+/// Sample by sample until there are as many as asked for; not, where it was stopped before.
+fn step(scene: &Scene<'_>, film: &mut Film, samples: u32, progress: &Progress, publish: impl Fn(&Film)) -> bool {
     let missing = samples.saturating_sub(film.samples());
     progress.add_total(u64::from(missing) * u64::from(film.size_px()[1]));
     let mut last = Instant::now();
-    while film.samples() < samples {
-        if scene.step(film, progress).is_err() {
-            break;
-        }
-        if film.samples().is_power_of_two() || last.elapsed() >= PUBLISH_STEP {
+    let mut is_whole = true;
+    while is_whole && film.samples() < samples {
+        is_whole = scene.step(film, progress).is_ok();
+        let is_due = film.samples().is_power_of_two() || last.elapsed() >= PUBLISH_STEP;
+        if is_whole && is_due {
             publish(film);
             last = Instant::now();
         }
@@ -180,4 +148,5 @@ fn step(scene: &Scene<'_>, film: &mut Film, samples: u32, progress: &Progress, p
     if film.samples() > 0 {
         publish(film);
     }
+    is_whole
 }
