@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::Args;
-use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, Scene, Term};
+use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Scene, Term};
 use octolume::accuracy::picture_error::Shown;
 use octolume::disk_cache::DiskCache;
 use octolume::export;
@@ -54,8 +54,7 @@ impl ReferenceOptions {
         file: &Path,
     ) -> anyhow::Result<()> {
         let pixel = if self.smooth_edges { PixelSampling::Area } else { PixelSampling::Centre };
-        let reflection = Reflection::MetallicRoughness;
-        let options = Options { size_px, seed: self.seed.unwrap_or(0), pixel, reflection };
+        let options = Options { seed: self.seed.unwrap_or(0), pixel, ..Options::new(size_px) };
         let film = traced((prepared, disk), settings, options, self.samples.unwrap_or(SAMPLES))?;
         output::message(&summary(&film, settings));
         write(&film, settings, file)
@@ -88,13 +87,12 @@ fn summary(film: &Film, settings: &Settings) -> String {
     let term = Term::of(settings.look.surface, settings.lighting.bounces);
     let error = term.map(|term| film.standard_error(term)).unwrap_or_default();
     let percent = |share: f64| 100.0 * share;
-    let relative_mean = if error.rms > 0.0 { error.relative * error.of_mean / error.rms } else { 0.0 };
     format!(
         "{} samples a pixel in {:.1} s; standard error {:.2} % of the mean (root mean square over the pixels), {:.3} % of the whole picture",
         film.samples(),
         film.secs(),
         percent(error.relative),
-        percent(relative_mean)
+        percent(error.relative_of_mean)
     )
 }
 

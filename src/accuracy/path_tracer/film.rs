@@ -158,6 +158,8 @@ pub struct StandardError {
     pub relative: f64,
     /// Of the picture's mean luminance.
     pub of_mean: f64,
+    /// The same over that mean.
+    pub relative_of_mean: f64,
 }
 
 impl Film {
@@ -235,8 +237,9 @@ impl Film {
         let of_pixel = |(sums, samples): (&PixelSums, f64)| luminance(sums.sum(term).to_array()) / samples.max(1.0);
         let mean = self.counted().map(of_pixel).sum::<f64>() / count;
         let rms = (variance / count).sqrt();
-        let relative = if mean > 0.0 { rms / mean } else { 0.0 };
-        StandardError { rms, relative, of_mean: variance.sqrt() / count }
+        let of_mean = variance.sqrt() / count;
+        let relative = |error: f64| if mean > 0.0 { error / mean } else { 0.0 };
+        StandardError { rms, relative: relative(rms), of_mean, relative_of_mean: relative(of_mean) }
     }
 
     fn counted(&self) -> impl Iterator<Item = (&PixelSums, f64)> {

@@ -51,6 +51,13 @@ pub struct Options {
     pub reflection: Reflection,
 }
 
+impl Options {
+    /// Comparable with a surface image of that size.
+    pub fn new(size_px: [u32; 2]) -> Self {
+        Self { size_px, seed: 0, pixel: PixelSampling::default(), reflection: Reflection::default() }
+    }
+}
+
 /// Where in a pixel rays go.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PixelSampling {
