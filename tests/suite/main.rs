@@ -17,6 +17,7 @@ mod compose;
 mod cone_light;
 mod cone_rig;
 mod cones;
+mod counted_surfaces;
 mod device;
 mod direct_light;
 mod disk_cache;
