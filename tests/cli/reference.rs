@@ -49,7 +49,8 @@ fn every_term_is_traced_and_nothing_else() {
             messages(&traced(none, &scene, &scenes.path(file), &options));
             let picture = image::open(scenes.path(file)).expect("a picture").into_rgb32f();
             assert_eq!(picture.dimensions(), (24, 16));
-            assert!(picture.iter().any(|channel| *channel > 0.0), "{view}");
+            // Of metal, which has no diffuse light.
+            assert_eq!(picture.iter().any(|channel| *channel > 0.0), view != "diffuse", "{view}");
         }
     }
     for view in ["voxels", "mesh", "normal", "surfaces:irradiance"] {
@@ -72,7 +73,7 @@ fn cones_are_compared_term_by_term() {
     let rows = json(start.into_iter().chain(options.map(Into::into)));
     let rows = rows.as_array().expect("rows");
     let terms: Vec<&str> = rows.iter().filter_map(|row| row["term"].as_str()).collect();
-    assert_eq!(terms, ["direct", "diffuse", "specular", "ao", "final"]);
+    assert_eq!(terms, ["direct", "diffuse", "specular", "final", "ao"]);
     for row in rows {
         for name in ["rel_mse", "bias", "ssim", "cones_ms", "paths_secs", "paths_error"] {
             assert!(row[name].as_f64().is_some_and(f64::is_finite), "{name}: {row}");
@@ -87,5 +88,5 @@ fn cones_are_compared_term_by_term() {
             assert!(folder.join(&file).is_file(), "{file}");
         }
     }
-    assert!(fields(&rows[4]).contains(&"flip") && folder.join("rendering.md").is_file());
+    assert!(fields(&rows[3]).contains(&"flip") && folder.join("rendering.md").is_file());
 }

@@ -24,13 +24,19 @@ use crate::cli::{output, values::Size};
 
 const SIZE_PX: [u32; 2] = [320, 180];
 const SAMPLES: u32 = 256;
-/// Terms, and the kernels that make them begin so.
-const TERMS: [(SurfaceView, &[&str]); 5] = [
-    (SurfaceView::Direct, &["surface/emission", "surface/direct"]),
-    (SurfaceView::Diffuse, &["cones/diffuse", "cones/blur", "cones/upsample"]),
-    (SurfaceView::Specular, &["cones/glossy", "cones/list", "cones/specular"]),
-    (SurfaceView::Ao, &["cones/diffuse", "cones/blur", "cones/upsample"]),
-    (SurfaceView::Final, &["surface/", "cones/"]),
+/// What is shown, and the terms that are read from that frame, each with how the kernels that make it begin.
+const FRAMES: [(SurfaceView, &[(SurfaceView, &[&str])]); 2] = [
+    (
+        SurfaceView::Final,
+        &[
+            (SurfaceView::Direct, &["surface/emission", "surface/direct"]),
+            (SurfaceView::Diffuse, &["cones/diffuse", "cones/blur", "cones/upsample"]),
+            (SurfaceView::Specular, &["cones/glossy", "cones/list", "cones/specular"]),
+            (SurfaceView::Final, &["surface/", "cones/"]),
+        ],
+    ),
+    // Beside light, cones need not tell what is near.
+    (SurfaceView::Ao, &[(SurfaceView::Ao, &["cones/diffuse", "cones/blur", "cones/upsample"])]),
 ];
 
 #[derive(Debug, Args)]
@@ -89,31 +95,37 @@ impl RenderingOptions {
         let size_px = self.size.map_or(SIZE_PX, |Size(size_px)| size_px);
         let mut settings = settings.clone();
         (settings.look.view, settings.look.surface) = (View::Surfaces, SurfaceView::Final);
-        settings.cone_tracing.ambient_occlusion = true;
-        let kernels_ms = measure(session, &settings, size_px, case.runs)?;
         let options = Options { seed: self.seed.unwrap_or(0), ..Options::new(size_px) };
         let samples = self.samples.unwrap_or(SAMPLES);
         let film = traced((&session.prepared, session.disk()), &settings, options, samples)?;
         let mut rows = Vec::new();
-        for (part, kernels) in TERMS {
-            let Some(cones) = session.engine.read_surface_part(part)? else { continue };
-            let truth = film.shown(part, &settings.lighting).context("paths show every term")?;
-            let shown = Shown::new(&settings.look, part, &truth);
-            let term = Compared { part, cones: &cones, truth: &truth, shown };
-            if let Some(folder) = case.folder {
-                let stem = format!("{}-{}-{}", session.prepared.scene.name, settings.discretization.grid, case.number);
-                term.draw(&settings, size_px, &folder.join(stem))?;
+        for (surface, terms) in FRAMES {
+            settings.look.surface = surface;
+            let kernels_ms = measure(session, &settings, size_px, case.runs)?;
+            for (part, kernels) in terms {
+                let belongs = |kernel: &str| kernels.iter().any(|start| kernel.starts_with(start));
+                let cones_ms = kernels_ms.iter().filter(|(kernel, _)| belongs(kernel)).map(|(_, ms)| ms).sum();
+                let Some(cones) = session.engine.read_surface_part(*part)? else { continue };
+                let truth = film.shown(*part, &settings.lighting).context("paths show every term")?;
+                let shown = Shown::new(&settings.look, *part, &truth);
+                let term = Compared { part: *part, cones: &cones, truth: &truth, shown };
+                if let Some(folder) = case.folder {
+                    term.draw(&settings, size_px, &folder.join(stem(session, &settings, case.number)))?;
+                }
+                rows.push(term.row(session, &settings, &film, cones_ms)?);
             }
-            let belongs = |kernel: &str| kernels.iter().any(|start| kernel.starts_with(start));
-            let cones_ms = kernels_ms.iter().filter(|(kernel, _)| belongs(kernel)).map(|(_, ms)| ms).sum();
-            rows.push(term.row(session, &settings, &film, cones_ms)?);
         }
-        if let Some(row) = rows.last_mut().filter(|row| row.term == SurfaceView::Final) {
+        settings.look.surface = SurfaceView::Final;
+        for row in rows.iter_mut().filter(|row| row.term == SurfaceView::Final) {
             let cones = (row.cones_ms / 1e3, row.error);
             row.race = Some(Race::run(session, &settings, (&film, options), cones)?);
         }
         Ok(rows)
     }
+}
+
+fn stem(session: &Session, settings: &Settings, number: usize) -> String {
+    format!("{}-{}-{number}", session.prepared.scene.name, settings.discretization.grid)
 }
 
 /// Medians of every kernel behind lit surfaces, after a run that is not measured.
