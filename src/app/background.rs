@@ -42,6 +42,11 @@ impl<T: Send + 'static> Background<T> {
         }
     }
 
+    /// Asks the work to end; what it ends with still arrives.
+    pub fn cancel(&self) {
+        self.progress.cancel();
+    }
+
     /// Between 0 and 1.
     pub fn fraction(&self) -> f32 {
         self.progress.fraction()

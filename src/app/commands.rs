@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use super::App;
 use super::inspector::Pin;
 use super::playback;
+use super::reference::Order;
+use super::screenshots::Format;
 use crate::scene::OrbitCamera;
 use crate::settings::{ConeTracing, Discretization, Lighting, Look, MotionSettings, Visibility};
 
@@ -22,6 +24,8 @@ pub enum Command {
     Light(Lighting),
     /// Other cones from surfaces.
     TraceCones(ConeTracing),
+    /// What is done with the path tracer.
+    Reference(Order),
     /// Another node of the octree is looked at.
     Pin(Pin),
     /// Another clip or turn, or a scrub of the timeline.
@@ -50,6 +54,8 @@ pub enum Command {
     Undo,
     Redo,
     SaveScreenshot,
+    /// The light of the surfaces that are shown, as it is.
+    SaveLight,
     ClearLog,
 }
 
@@ -63,6 +69,7 @@ impl App {
             Command::CancelLoading => self.cancel_loading(),
             Command::Discretize(discretization) => self.settings.discretization = discretization,
             Command::Look(look) => self.settings.look = look,
+            Command::Reference(order) => self.desk.reference.apply(order),
             Command::Pin(pin) => self.desk.inspector.apply(pin),
             Command::Light(lighting) => self.settings.lighting = lighting,
             Command::TraceCones(cones) => self.settings.cone_tracing = cones,
@@ -102,7 +109,8 @@ impl App {
                 self.playback.speed = speed;
                 self.restart_clock(clock_secs);
             }
-            Command::SaveScreenshot => self.screenshots.want(),
+            Command::SaveScreenshot => self.screenshots.want(Format::Picture),
+            Command::SaveLight => self.screenshots.want(Format::Light),
             Command::ClearLog => self.journal.clear(),
         }
     }

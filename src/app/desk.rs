@@ -7,6 +7,7 @@ use super::commands::Command;
 use super::inspector::Inspector;
 use super::panels::top_bar::Unfolded;
 use super::panels::tree::TreeState;
+use super::reference::Reference;
 use crate::lights::LightSource;
 
 pub struct Desk {
@@ -19,6 +20,7 @@ pub struct Desk {
     /// The light whose controls are shown.
     pub light: Option<LightSource>,
     pub inspector: Inspector,
+    pub reference: Reference,
     dialog: Option<Background<Option<PathBuf>>>,
 }
 
@@ -31,6 +33,7 @@ impl Default for Desk {
             tree: TreeState::default(),
             light: None,
             inspector: Inspector::default(),
+            reference: Reference::default(),
             dialog: None,
         }
     }

@@ -7,6 +7,7 @@ use egui::{Panel, ScrollArea, TextEdit, Ui};
 use super::commands::Command;
 use super::panels::cones::ConesPanel;
 use super::panels::light::LightPanel;
+use super::panels::reference::ReferencePanel;
 use super::panels::top_bar::TopBar;
 use super::panels::tree::TreePanel;
 use super::panels::view::ViewPanel;
@@ -133,10 +134,16 @@ impl App {
             lights: &self.shining(),
             exposure: self.stage.exposure,
         };
-        let commands = panels::view::ui(ui, panel);
+        let mut commands = panels::view::ui(ui, panel);
         panels::control(ui, "Save to", "Folder that screenshots are written to.", |ui| {
             ui.add(TextEdit::singleline(&mut self.screenshots.folder).desired_width(f32::INFINITY))
         });
+        if settings.look.view == View::Surfaces {
+            let tip = "Saves what is shown as OpenEXR: linear, unclamped, in nits, lux or scene units.";
+            if ui.button("Save light").on_hover_text(tip).clicked() {
+                commands.push(Command::SaveLight);
+            }
+        }
         commands
     }
 
@@ -188,6 +195,18 @@ impl App {
         commands.extend(section(ui, "Node under cursor", false, |ui| {
             inspector.is_open = true;
             panels::node::ui(ui, inspector, &self.settings.look)
+        }));
+        let reference = &mut self.desk.reference;
+        reference.is_open = false;
+        commands.extend(section(ui, "Reference", false, |ui| {
+            reference.is_open = true;
+            let panel = ReferencePanel {
+                reference,
+                timings: &stage.timings,
+                is_surfaces: self.settings.look.view == View::Surfaces,
+                has_scene: self.scene.is_some(),
+            };
+            panels::reference::ui(ui, &panel)
         }));
         commands.extend(section(ui, "Octree", true, |ui| {
             panels::octree::ui(ui, stage.octree.as_ref(), self.settings.look.level);

@@ -4,6 +4,7 @@ use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2
 
 use super::scale_ticks::{Tick, ticks};
 use super::theme;
+use crate::accuracy::picture_error::difference_color;
 use crate::color::srgb_byte;
 use crate::settings::{ColorBy, Look, Slice, SliceValue, SurfaceView, ToneCurve, View};
 use crate::stages::view::GHOST_COLORS;
@@ -129,6 +130,14 @@ fn white(curve: ToneCurve) -> f64 {
         ToneCurve::Linear => 1.0,
         ToneCurve::Reinhard | ToneCurve::Aces => 8.0,
     }
+}
+
+/// Of a map of differences: what its colours stand for.
+pub fn differences(painter: &Painter, view: Rect, part: SurfaceView, most: f64) {
+    let corner = view.left_top() + vec2(12.0, 12.0);
+    let unit = if part.is_light() { "nits" } else { "of 1" };
+    let name = format!("cones less paths, luminance, {unit}");
+    scale(painter, corner, &name, &ticks([-most, most], false), |part| difference_color(2.0 * part - 1.0));
 }
 
 fn surfaces(painter: &Painter, corner: Pos2, look: &Look, values: Values) {

@@ -49,6 +49,11 @@ impl Loader {
         Self { options, disk, job: None }
     }
 
+    /// Where what takes long is kept.
+    pub fn disk(&self) -> Option<&DiskCache> {
+        self.disk.as_ref()
+    }
+
     /// What [`Self::new`] was given.
     pub fn choices(&self) -> (OpenOptions, Option<DiskCache>) {
         (self.options.clone(), self.disk.clone())

@@ -28,6 +28,7 @@ mod outline;
 mod panels;
 mod picture;
 mod playback;
+mod reference;
 mod rescue;
 mod scale_ticks;
 mod screenshots;
@@ -213,10 +214,10 @@ impl App {
         &self.settings
     }
 
-    /// Nothing is being opened, voxelized, built or drawn.
+    /// Nothing is being opened, voxelized, built, drawn, traced or compared.
     pub fn is_settled(&self) -> bool {
         let loading = self.loader.progress().is_some() || self.exact.fraction().is_some();
-        !loading && self.stage.working().is_none() && !self.screenshots.is_busy()
+        !loading && self.stage.working().is_none() && !self.screenshots.is_busy() && !self.desk.reference.is_busy()
     }
 
     fn prepared(&self) -> Option<&Arc<Prepared>> {

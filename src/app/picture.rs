@@ -1,10 +1,15 @@
 //! The middle of the window: which picture is wanted now, how coarse it may be, and what lies over it.
 
+use std::sync::Arc;
+
 use egui::{Align2, FontId, Rect, Ui, vec2};
 
+use super::commands::Command;
 use super::exact_job::Posed;
 use super::journal::Severity;
 use super::node_overlay::{self, Projection};
+use super::reference::{Seen, Shown};
+use super::screenshots::{Content, Format};
 use super::{App, PROGRESS_STEP, exact_job, legend, theme, viewport};
 use crate::gpu::GpuTexture;
 use crate::scene::OrbitCamera;
@@ -27,9 +32,11 @@ impl App {
         for sentence in self.stage.take_newly_left_out() {
             self.journal.note(Severity::Warning, sentence);
         }
+        self.follow_reference(ui.ctx(), &settings, full_px);
         self.save_screenshot(ui.ctx(), &settings, full_px);
         let response = self.viewport.ui(ui, &self.render, self.stage.picture());
-        let commands = viewport::commands(ui, &response, &camera);
+        let mut commands = viewport::commands(ui, &response, &camera);
+        commands.extend(self.desk.reference.overlay_ui(ui, rect).map(Command::Reference));
         self.inspect(ui, &response);
         let moved = !commands.is_empty();
         commands.into_iter().for_each(|command| self.apply(ui.ctx(), command, clock_secs));
@@ -78,6 +85,24 @@ impl App {
         self.playback.is_playing() || self.moved_at_secs.is_some_and(|moved| clock_secs - moved < rest_secs)
     }
 
+    /// The path tracer beside the picture: works on its own, and reads what is finished.
+    fn follow_reference(&mut self, ctx: &egui::Context, settings: &Settings, full_px: [u32; 2]) {
+        let Some(ready) = &self.scene else { return };
+        let stage = &self.stage;
+        let is_full = stage.picture().map(GpuTexture::size_px) == Some(full_px) && !stage.engine.shows_nothing();
+        let shown = Shown {
+            seen: Seen { prepared: Arc::clone(&ready.prepared), settings: settings.clone(), size_px: full_px },
+            disk: self.loader.disk(),
+            engine: &stage.engine,
+            results: stage.results,
+            is_finished: is_full && stage.working().is_none() && stage.error().is_none(),
+            is_quiet: !self.latency.is_under_input(),
+        };
+        if let Err(error) = self.desk.reference.follow(ctx, &shown) {
+            self.journal.tell(Severity::Error, error);
+        }
+    }
+
     fn save_screenshot(&mut self, ctx: &egui::Context, settings: &Settings, full_px: [u32; 2]) {
         if !self.screenshots.is_wanted() || self.stage.working().is_some() {
             return;
@@ -85,11 +110,15 @@ impl App {
         let Some(ready) = &self.scene else { return self.screenshots.give_up() };
         let ready_px = self.stage.picture().map(GpuTexture::size_px);
         let is_ready = ready_px == Some(full_px) || self.stage.engine.shows_nothing();
-        if !is_ready || self.exact.fraction().is_some() {
+        if !is_ready || self.exact.fraction().is_some() || self.desk.reference.is_behind() {
             return;
         }
-        match self.stage.engine.read_image() {
-            Ok(picture) => self.screenshots.save(ctx, picture, settings.clone(), &ready.prepared.scene.name),
+        let content = match self.screenshots.wanted() {
+            Some(Format::Light) => self.shown_light(full_px),
+            Some(Format::Picture) | None => self.shown_picture(settings),
+        };
+        match content {
+            Ok(content) => self.screenshots.save(ctx, content, &ready.prepared.scene.name),
             Err(error) => {
                 self.screenshots.give_up();
                 self.journal.tell(Severity::Error, format!("no screenshot: {error}"));
@@ -97,9 +126,25 @@ impl App {
         }
     }
 
+    fn shown_picture(&self, settings: &Settings) -> anyhow::Result<Content> {
+        let mut picture = self.stage.engine.read_image()?;
+        self.desk.reference.lay_over(&mut picture);
+        Ok(Content::Picture(picture, Box::new(settings.clone())))
+    }
+
+    fn shown_light(&self, size_px: [u32; 2]) -> anyhow::Result<Content> {
+        let light = self.stage.engine.read_surfaces()?;
+        let mut light = light.ok_or_else(|| anyhow::anyhow!("no lit surfaces are shown"))?;
+        self.desk.reference.lay_light_over(&mut light);
+        Ok(Content::Light(light, size_px))
+    }
+
     /// Asks for the next frame of the window where something goes on; whether at once.
     pub(super) fn wake_again(&self, ctx: &egui::Context, clock_secs: f64) -> bool {
         if self.loader.progress().is_some() || self.exact.fraction().is_some() {
+            ctx.request_repaint_after(PROGRESS_STEP);
+        }
+        if self.desk.reference.is_busy() {
             ctx.request_repaint_after(PROGRESS_STEP);
         }
         let now = self.stage.working().is_some() || self.playback.is_playing() || self.screenshots.is_wanted();
@@ -133,7 +178,10 @@ impl App {
         legend::caption(&painter, rect.right_bottom() + vec2(-14.0, -10.0), Align2::RIGHT_BOTTOM, &size);
         let values = legend::Values { exposure: self.stage.exposure, range: self.stage.value_range };
         self.paint_node(&painter, rect, full_px);
-        legend::paint(&painter, rect, &self.settings.look, values);
+        match self.desk.reference.most_difference() {
+            Some(most) => legend::differences(&painter, rect, self.settings.look.surface, most),
+            None => legend::paint(&painter, rect, &self.settings.look, values),
+        }
     }
 
     /// The node that is looked at, over the picture, where its pointers are wanted.

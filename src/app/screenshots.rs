@@ -1,4 +1,4 @@
-//! Saves the view as a picture that carries its settings. The picture is taken when the engine has
+//! Saves the view as a picture that carries its settings, or its light as it is. The picture is taken when the engine has
 //! finished it at full size, and written on a thread of its own.
 
 use std::path::{Path, PathBuf};
@@ -9,42 +9,71 @@ use super::background::{Background, Outcome};
 use crate::export;
 use crate::settings::Settings;
 
+/// What is saved of the view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Its colours, as PNG.
+    Picture,
+    /// The light of its surfaces, as OpenEXR.
+    Light,
+}
+
+impl Format {
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Picture => "png",
+            Self::Light => "exr",
+        }
+    }
+}
+
+/// What goes into a file.
+pub enum Content {
+    Picture(RgbaImage, Box<Settings>),
+    /// Four channels a pixel, rows from the top; how large it is.
+    Light(Vec<[f32; 4]>, [u32; 2]),
+}
+
 pub struct Screenshots {
     /// Where they go, as typed; the current folder at first.
     pub folder: String,
-    wanted: bool,
+    wanted: Option<Format>,
     writing: Vec<Background<Result<PathBuf, String>>>,
 }
 
 impl Default for Screenshots {
     fn default() -> Self {
-        Self { folder: ".".to_owned(), wanted: false, writing: Vec::new() }
+        Self { folder: ".".to_owned(), wanted: None, writing: Vec::new() }
     }
 }
 
 impl Screenshots {
-    pub fn want(&mut self) {
-        self.wanted = true;
+    pub fn want(&mut self, format: Format) {
+        self.wanted = Some(format);
     }
 
     /// A picture is waited for: it must be finished, and not coarse.
     pub fn is_wanted(&self) -> bool {
+        self.wanted.is_some()
+    }
+
+    pub fn wanted(&self) -> Option<Format> {
         self.wanted
     }
 
-    pub fn save(&mut self, ctx: &egui::Context, picture: RgbaImage, settings: Settings, scene: &str) {
-        self.wanted = false;
+    pub fn save(&mut self, ctx: &egui::Context, content: Content, scene: &str) {
+        self.wanted = None;
         let (folder, scene) = (PathBuf::from(self.folder.trim()), scene.to_owned());
-        self.writing.push(Background::start(ctx, move |_| write(&folder, &scene, &picture, &settings)));
+        self.writing.push(Background::start(ctx, move |_| write(&folder, &scene, &content)));
     }
 
     /// A picture is waited for or being written.
     pub fn is_busy(&self) -> bool {
-        self.wanted || !self.writing.is_empty()
+        self.is_wanted() || !self.writing.is_empty()
     }
 
     pub fn give_up(&mut self) {
-        self.wanted = false;
+        self.wanted = None;
     }
 
     /// Files written since the last call, or why they were not.
@@ -65,13 +94,13 @@ impl Screenshots {
     }
 }
 
-/// Makes `octolume-<scene>-<n>.png` with the first number that no file has: an empty file, so that
+/// Makes `octolume-<scene>-<n>.<extension>` with the first number that no file has: an empty file, so that
 /// no other picture takes the name meanwhile.
-fn reserve_file(folder: &Path, scene: &str) -> Result<PathBuf, String> {
+fn reserve_file(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, String> {
     let scene: String = scene.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '-' }).collect();
     let mut number = 1_u64;
     loop {
-        let file = folder.join(format!("octolume-{scene}-{number}.png"));
+        let file = folder.join(format!("octolume-{scene}-{number}.{extension}"));
         match std::fs::File::create_new(&file) {
             Ok(_) => return Ok(file),
             Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => number += 1,
@@ -80,9 +109,17 @@ fn reserve_file(folder: &Path, scene: &str) -> Result<PathBuf, String> {
     }
 }
 
-fn write(folder: &Path, scene: &str, picture: &RgbaImage, settings: &Settings) -> Result<PathBuf, String> {
-    let file = reserve_file(folder, scene)?;
-    export::write_png(&file, picture, settings).map_err(|error| {
+fn write(folder: &Path, scene: &str, content: &Content) -> Result<PathBuf, String> {
+    let format = match content {
+        Content::Picture(..) => Format::Picture,
+        Content::Light(..) => Format::Light,
+    };
+    let file = reserve_file(folder, scene, format.extension())?;
+    let written = match content {
+        Content::Picture(picture, settings) => export::write_png(&file, picture, settings),
+        Content::Light(light, size_px) => export::write_exr(&file, *size_px, light),
+    };
+    written.map_err(|error| {
         // The reserved file is empty; a failure to remove it changes nothing about the error to tell.
         let _ = std::fs::remove_file(&file);
         error.to_string()
@@ -98,7 +135,7 @@ mod tests {
     fn names_are_numbered_and_hold_no_odd_characters() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         for number in 1..=2 {
-            let file = reserve_file(folder.path(), "Box With/Spaces");
+            let file = reserve_file(folder.path(), "Box With/Spaces", "png");
             assert_eq!(file, Ok(folder.path().join(format!("octolume-Box-With-Spaces-{number}.png"))));
         }
     }
@@ -106,7 +143,7 @@ mod tests {
     #[test]
     fn a_folder_that_does_not_exist_is_named() {
         let missing = tempfile::tempdir().expect("a temporary folder").path().join("gone");
-        let error = reserve_file(&missing, "Fox").expect_err("no folder");
+        let error = reserve_file(&missing, "Fox", "png").expect_err("no folder");
         assert!(error.contains("gone") && error.contains("octolume-Fox-1.png"), "{error}");
     }
 }

@@ -11,7 +11,8 @@ use serde::Serialize;
 
 use super::output;
 
-/// Says where voxels are kept from one opening to the next and how many; clears them
+/// Says where voxels of objects and traced pictures are kept from one opening to the next and how many; clears
+/// them
 #[derive(Debug, Args)]
 pub struct Cache {
     /// What to do with them; otherwise nothing
@@ -78,8 +79,8 @@ impl Facts {
     }
 }
 
-/// "2 objects, 1.5 MiB".
+/// "2 entries, 1.5 MiB".
 fn counted(contents: &Contents) -> String {
     let Contents { entries, bytes } = *contents;
-    format!("{entries} object{}, {}", if entries == 1 { "" } else { "s" }, ByteSize(bytes).display().iec())
+    format!("{entries} entr{}, {}", if entries == 1 { "y" } else { "ies" }, ByteSize(bytes).display().iec())
 }

@@ -1,11 +1,11 @@
 //! `octolume render --reference`: the picture of light that the path tracer makes, on the CPU.
 
 use std::path::Path;
-use std::time::Instant;
 
 use clap::Args;
-use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, Scene, Term};
+use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Scene, Term};
 use octolume::accuracy::picture_error::Shown;
+use octolume::disk_cache::DiskCache;
 use octolume::export;
 use octolume::prepare::Prepared;
 use octolume::settings::{Settings, SurfaceView, View};
@@ -46,31 +46,53 @@ impl ReferenceOptions {
     }
 
     /// Traces a picture, writes it, and says how far off it may be.
-    pub fn draw(&self, prepared: &Prepared, settings: &Settings, size_px: [u32; 2], file: &Path) -> anyhow::Result<()> {
+    pub fn draw(
+        &self,
+        (prepared, disk): (&Prepared, Option<&DiskCache>),
+        settings: &Settings,
+        size_px: [u32; 2],
+        file: &Path,
+    ) -> anyhow::Result<()> {
         let pixel = if self.smooth_edges { PixelSampling::Area } else { PixelSampling::Centre };
-        let reflection = Reflection::MetallicRoughness;
-        let options = Options { size_px, seed: self.seed.unwrap_or(0), pixel, reflection };
-        let started = Instant::now();
-        let scene = Scene::new(prepared, settings, options)?;
-        output::warnings(scene.warnings());
-        let mut film = scene.new_film();
-        let samples = self.samples.unwrap_or(SAMPLES);
-        output::with_progress("tracing paths", |progress| scene.trace(&mut film, samples, progress))?;
-        output::message(&summary(&film, settings, started.elapsed().as_secs_f64()));
+        let options = Options { seed: self.seed.unwrap_or(0), pixel, ..Options::new(size_px) };
+        let film = traced((prepared, disk), settings, options, self.samples.unwrap_or(SAMPLES))?;
+        output::message(&summary(&film, settings));
         write(&film, settings, file)
     }
 }
 
-fn summary(film: &Film, settings: &Settings, secs: f64) -> String {
+/// A picture with as many samples a pixel, which go on from what `disk` holds and are kept there.
+pub fn traced(
+    (prepared, disk): (&Prepared, Option<&DiskCache>),
+    settings: &Settings,
+    options: Options,
+    samples: u32,
+) -> anyhow::Result<Film> {
+    let scene = Scene::new(prepared, settings, options)?;
+    output::warnings(scene.warnings());
+    let kept = disk.map(|disk| (disk, scene.key()));
+    let stored = kept.as_ref().and_then(|(disk, key)| disk.load_film(key, options.size_px, samples));
+    let mut film = stored.unwrap_or_else(|| scene.new_film());
+    output::with_progress("tracing paths", |progress| scene.trace(&mut film, samples, progress))?;
+    if let Some((disk, key)) = kept
+        && let Err(error) = disk.store_film(&key, &film)
+    {
+        let folder = disk.folder().display();
+        output::message(&format!("warning: the traced picture cannot be kept in {folder}: {error}"));
+    }
+    Ok(film)
+}
+
+fn summary(film: &Film, settings: &Settings) -> String {
     let term = Term::of(settings.look.surface, settings.lighting.bounces);
     let error = term.map(|term| film.standard_error(term)).unwrap_or_default();
     let percent = |share: f64| 100.0 * share;
-    let relative_mean = if error.rms > 0.0 { error.relative * error.of_mean / error.rms } else { 0.0 };
     format!(
-        "{} samples a pixel in {secs:.1} s; standard error {:.2} % of the mean (root mean square over the pixels), {:.3} % of the whole picture",
+        "{} samples a pixel in {:.1} s; standard error {:.2} % of the mean (root mean square over the pixels), {:.3} % of the whole picture",
         film.samples(),
+        film.secs(),
         percent(error.relative),
-        percent(relative_mean)
+        percent(error.relative_of_mean)
     )
 }
 

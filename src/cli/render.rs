@@ -61,10 +61,11 @@ impl Render {
 
     /// Pictures of the path tracer, which needs no GPU.
     fn trace(&self, settings: &mut Settings, size_px: [u32; 2]) -> anyhow::Result<()> {
-        let prepared = session::prepare_only(&self.scene, &self.common, self.common.disk_cache().as_ref(), settings)?;
+        let disk = self.common.disk_cache();
+        let prepared = session::prepare_only(&self.scene, &self.common, disk.as_ref(), settings)?;
         for (file, time_secs) in self.pictures(settings) {
             settings.motion.time_secs = time_secs;
-            self.reference.draw(&prepared, settings, size_px, &file)?;
+            self.reference.draw((&prepared, disk.as_ref()), settings, size_px, &file)?;
         }
         Ok(())
     }

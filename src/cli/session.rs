@@ -56,6 +56,11 @@ impl Session {
         Ok(())
     }
 
+    /// Where voxels and traced pictures are kept, if they are.
+    pub fn disk(&self) -> Option<&DiskCache> {
+        self.disk.as_ref()
+    }
+
     /// Builds and draws what the settings ask for.
     pub fn run(&mut self, settings: &Settings, image_size_px: [u32; 2]) -> anyhow::Result<()> {
         self.engine.request(settings, image_size_px)?;

@@ -8,11 +8,10 @@ use std::time::{Duration, SystemTime};
 use bytesize::GIB;
 use serde::Serialize;
 
-use super::DiskCache;
+use super::{DiskCache, KINDS};
 
 /// How much a folder holds at most, unless [`DiskCache::set_cap_bytes`] was asked for something else.
 pub const DEFAULT_CAP_BYTES: u64 = 4 * GIB;
-pub(super) const ENTRY_EXTENSION: &str = "voxels";
 /// Holds the cap in decimal digits, so that every process obeys it.
 const CAP_FILE: &str = "cap-bytes";
 const UNFINISHED_EXTENSION: &str = "unfinished";
@@ -34,7 +33,7 @@ struct Found {
 
 impl DiskCache {
     pub fn contents(&self) -> io::Result<Contents> {
-        Ok(total(&self.files(ENTRY_EXTENSION)?))
+        Ok(total(&self.entries()?))
     }
 
     pub fn cap_bytes(&self) -> u64 {
@@ -53,7 +52,7 @@ impl DiskCache {
     pub fn trim(&self) -> io::Result<Contents> {
         let is_abandoned = |file: &Found| file.modified.elapsed().is_ok_and(|age| age > ABANDONED_AFTER);
         remove(self.files(UNFINISHED_EXTENSION)?.iter().filter(|file| is_abandoned(file)))?;
-        let mut entries = self.files(ENTRY_EXTENSION)?;
+        let mut entries = self.entries()?;
         entries.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
         let mut excess = total(&entries).bytes.saturating_sub(self.cap_bytes());
         let surplus = entries.iter().take_while(|entry| {
@@ -67,7 +66,7 @@ impl DiskCache {
     /// Removes all entries, but not the cap. Returns what was removed.
     pub fn clear(&self) -> io::Result<Contents> {
         remove(&self.files(UNFINISHED_EXTENSION)?)?;
-        remove(&self.files(ENTRY_EXTENSION)?)
+        remove(&self.entries()?)
     }
 
     /// A file that appears whole or not at all. A crash of the machine can leave it empty, which
@@ -79,6 +78,14 @@ impl DiskCache {
         content(file.as_file_mut())?;
         file.persist(path)?;
         Ok(())
+    }
+
+    fn entries(&self) -> io::Result<Vec<Found>> {
+        let mut entries = Vec::new();
+        for kind in KINDS {
+            entries.extend(self.files(kind.extension)?);
+        }
+        Ok(entries)
     }
 
     /// Regular files with an extension. A folder that does not exist holds none; a file that

@@ -28,7 +28,7 @@ impl ContentKey {
         let default_material = Material::default();
         let part_materials = input.part_materials(&default_material);
         let VoxelizeInput { parts, materials: _, textures: _, mode, with_joints } = input;
-        let mut writer = Writer { hasher: Hasher::new(), textures };
+        let mut writer = Writer::new(textures);
         writer.number(u64::from(ALGORITHM_VERSION));
         writer.number(match mode {
             VoxelizationMode::Thin => 0,
@@ -40,7 +40,7 @@ impl ContentKey {
             writer.part(part, *with_joints);
             writer.material(material);
         }
-        Self(writer.hasher.finalize())
+        writer.finish()
     }
 
     pub(super) fn bytes(&self) -> &[u8; 32] {
@@ -55,17 +55,26 @@ impl fmt::Display for ContentKey {
     }
 }
 
-struct Writer<'a> {
+/// Takes in, piece by piece, what a key is made from.
+pub struct Writer<'a> {
     hasher: Hasher,
     textures: &'a TextureHashes,
 }
 
-impl Writer<'_> {
-    fn number(&mut self, number: u64) {
+impl<'a> Writer<'a> {
+    pub fn new(textures: &'a TextureHashes) -> Self {
+        Self { hasher: Hasher::new(), textures }
+    }
+
+    pub fn finish(self) -> ContentKey {
+        ContentKey(self.hasher.finalize())
+    }
+
+    pub fn number(&mut self, number: u64) {
         self.hasher.update(&number.to_le_bytes());
     }
 
-    fn list<T: NoUninit>(&mut self, values: &[T]) {
+    pub fn list<T: NoUninit>(&mut self, values: &[T]) {
         self.number(values.len() as u64);
         self.hasher.update(bytemuck::cast_slice(values));
     }
@@ -123,7 +132,8 @@ impl Writer<'_> {
         textures_read(material).into_iter().for_each(|slot| self.slot(slot));
     }
 
-    fn slot(&mut self, slot: Option<TextureRef>) {
+    /// With its texture's content.
+    pub fn slot(&mut self, slot: Option<TextureRef>) {
         self.number(u64::from(slot.is_some()));
         let Some(TextureRef { texture, tex_coord, uv_from_tex_coord }) = slot else { return };
         self.number(tex_coord as u64);

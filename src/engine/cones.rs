@@ -45,6 +45,11 @@ impl TracedBy {
 }
 
 impl Engine {
+    /// Tiles of the last picture of surfaces whose pixels sent out a specular cone.
+    pub fn glossy_tiles(&self) -> u32 {
+        if self.done.specular.is_some() { self.surfaces.glossy_count } else { 0 }
+    }
+
     pub(super) fn record_diffuse(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
         let mut frame = Recorder::default();
         let settings = &wanted.settings.cone_tracing;

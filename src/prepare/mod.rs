@@ -164,6 +164,11 @@ impl Prepared {
         Some(Arc::clone(&self.caches[index]))
     }
 
+    /// What the scene's textures hold.
+    pub fn texture_hashes(&self) -> &TextureHashes {
+        &self.texture_hashes
+    }
+
     /// Voxels of all objects, whether in the grid or not.
     pub fn voxel_count(&self) -> u64 {
         self.parts.iter().map(|part| part.tile.voxels.len() as u64).sum()

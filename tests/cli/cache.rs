@@ -80,7 +80,7 @@ fn the_cache_is_seen_capped_and_cleared() {
     let bytes = full["bytes"].as_u64().expect("a number");
     assert!(full["entries"] == 1 && bytes > 1000, "{full}");
     let text = kept.succeed(&["cache"]).0;
-    assert!(text.contains("1 object, ") && text.contains(" KiB, 4.0 GiB at most"), "{text}");
+    assert!(text.contains("1 entry, ") && text.contains(" KiB, 4.0 GiB at most"), "{text}");
     // A cap that is too small removes at once, and holds for what comes.
     let capped = kept.cache(&["--cap", "1KiB"]);
     assert_eq!((&capped["entries"], &capped["cap_bytes"]), (&json!(0), &json!(1024)));

@@ -8,6 +8,7 @@ use octolume::stages::surface::brdf_ref;
 use octolume::stages::surface::compose::{self, ComposeParams, Terms};
 use octolume::stages::surface::compose_ref::{self, Light};
 use octolume::stages::surface::sum_luminance::{self, SUM_BYTES};
+use octolume::stages::surface::sum_luminance_ref;
 use octolume::stages::view::camera::PixelRays;
 use octolume::stages::view::palette::legend_value;
 use octolume::stages::view::show_surfaces::{self, ShowSurfacesParams};
@@ -155,8 +156,10 @@ fn the_mean_luminance_is_geometric_and_counts_what_shines() {
         Job::new(frame).run_to_end(gpu).expect("runs");
         sum_luminance::mean_luminance(&gpu.read(&sums, 0..SUM_BYTES).expect("readable"))
     };
-    // Weights of the channels sum to 1, to a few last places of f32.
+    // Weights of the channels sum to 1, and logarithms of up to 10 are summed, to a few last places of f32.
     assert!((mean(&pixels).expect("something shines") - 2.0).abs() < 1e-5);
+    let expected = sum_luminance_ref::mean_luminance(&pixels).expect("the same");
+    assert!((expected - 2.0).abs() < 1e-12);
     assert_eq!(mean(&[[0.0, 0.0, 0.0, 1.0]; 10]), None);
 }
 

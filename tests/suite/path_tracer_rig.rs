@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, Vec2};
-use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, Scene as PathScene, Term};
+use octolume::accuracy::path_tracer::{Film, Options, Reflection, Scene as PathScene, Term};
 use octolume::color::luminance;
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
@@ -69,7 +69,7 @@ pub fn under_sky(mut settings: Settings, nits: f64) -> Settings {
 }
 
 pub fn options(reflection: Reflection) -> Options {
-    Options { size_px: [8, 8], seed: 1, pixel: PixelSampling::Centre, reflection }
+    Options { seed: 1, reflection, ..Options::new([8, 8]) }
 }
 
 pub fn prepared(scene: Scene, settings: &Settings) -> Arc<Prepared> {

@@ -116,7 +116,7 @@ fn a_slice_of_occupancy_needs_the_store_but_no_light() {
     settings.look.slice.value = SliceValue::Occupancy;
     let plan = plan(&RIGID, &FIRST, &settings);
     assert!(plan.runs(Pass::InjectLight) && plan.runs(Pass::AverageLight) && plan.runs(Pass::SliceOctree));
-    assert_eq!(reason(&plan, Pass::Illuminate), (State::Skip, "no light in the scene"));
+    assert_eq!(reason(&plan, Pass::Illuminate), (State::Skip, "only opacity is looked at"));
 }
 
 /// A cube under a light that shines straight down on it.

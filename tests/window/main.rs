@@ -5,6 +5,7 @@ mod files;
 mod lights;
 mod node;
 mod opening;
+mod reference;
 mod rig;
 mod surfaces;
 mod tree;

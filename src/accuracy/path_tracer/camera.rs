@@ -7,13 +7,13 @@ use crate::data::grid::Grid;
 use crate::scene::OrbitCamera;
 
 pub struct CameraRays {
-    eye: DVec3,
-    forward: DVec3,
+    pub eye: DVec3,
+    pub forward: DVec3,
     /// From the middle of the picture to its right and upper edge, one cell ahead.
-    right: DVec3,
-    up: DVec3,
-    near_cells: f64,
-    size_px: [f64; 2],
+    pub right: DVec3,
+    pub up: DVec3,
+    pub near_cells: f64,
+    pub size_px: [f64; 2],
 }
 
 impl CameraRays {

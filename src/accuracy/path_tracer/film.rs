@@ -131,13 +131,22 @@ impl PixelSums {
 }
 
 /// Sums of a picture in the making.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Film {
     size_px: [u32; 2],
+    /// That its samples took.
+    pub(super) secs: f64,
     /// By row: how many samples each of its pixels has.
     pub(super) samples: Vec<u32>,
     /// Row by row from the top.
     pub(super) pixels: Vec<PixelSums>,
+}
+
+/// Alike in every bit of the picture, however long it took.
+impl PartialEq for Film {
+    fn eq(&self, other: &Self) -> bool {
+        (self.size_px, &self.samples, &self.pixels) == (other.size_px, &other.samples, &other.pixels)
+    }
 }
 
 /// How far means are off, in the unit of the term.
@@ -149,12 +158,37 @@ pub struct StandardError {
     pub relative: f64,
     /// Of the picture's mean luminance.
     pub of_mean: f64,
+    /// The same over that mean.
+    pub relative_of_mean: f64,
 }
 
 impl Film {
     pub fn new(size_px: [u32; 2]) -> Self {
         let [width, height] = size_px.map(|side| side as usize);
-        Self { size_px, samples: vec![0; height], pixels: vec![PixelSums::default(); width * height] }
+        let pixels = vec![PixelSums::default(); width * height];
+        Self { size_px, secs: 0.0, samples: vec![0; height], pixels }
+    }
+
+    /// A picture that was kept; `None` where these are no sums of that many samples.
+    pub fn from_pixels(size_px: [u32; 2], samples: u32, secs: f64, pixels: Vec<PixelSums>) -> Option<Self> {
+        let [width, height] = size_px.map(|side| side as usize);
+        let most = f64::from(samples);
+        let is_sum = |sums: &PixelSums| {
+            let values: &[f64] = bytemuck::cast_slice(std::slice::from_ref(sums));
+            values.iter().all(|value| value.is_finite() && *value >= 0.0) && sums.open.max(sums.coverage) <= most
+        };
+        let fits = pixels.len() == width * height && pixels.iter().all(is_sum) && secs >= 0.0;
+        fits.then(|| Self { size_px, secs, samples: vec![samples; height], pixels })
+    }
+
+    /// Rows from the top.
+    pub fn pixels(&self) -> &[PixelSums] {
+        &self.pixels
+    }
+
+    /// That its samples took, on as many threads as there were.
+    pub fn secs(&self) -> f64 {
+        self.secs
     }
 
     pub fn size_px(&self) -> [u32; 2] {
@@ -203,8 +237,9 @@ impl Film {
         let of_pixel = |(sums, samples): (&PixelSums, f64)| luminance(sums.sum(term).to_array()) / samples.max(1.0);
         let mean = self.counted().map(of_pixel).sum::<f64>() / count;
         let rms = (variance / count).sqrt();
-        let relative = if mean > 0.0 { rms / mean } else { 0.0 };
-        StandardError { rms, relative, of_mean: variance.sqrt() / count }
+        let of_mean = variance.sqrt() / count;
+        let relative = |error: f64| if mean > 0.0 { error / mean } else { 0.0 };
+        StandardError { rms, relative: relative(rms), of_mean, relative_of_mean: relative(of_mean) }
     }
 
     fn counted(&self) -> impl Iterator<Item = (&PixelSums, f64)> {

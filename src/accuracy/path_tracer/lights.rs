@@ -15,12 +15,12 @@ use crate::scene::LightKind;
 
 /// A light in cells.
 pub struct Punctual {
-    kind: LightKind,
+    pub kind: LightKind,
     /// Lux, or candela over the squared span.
-    strength: DVec3,
-    position: DVec3,
-    direction: DVec3,
-    span: f64,
+    pub strength: DVec3,
+    pub position: DVec3,
+    pub direction: DVec3,
+    pub span: f64,
 }
 
 /// Light at a point.

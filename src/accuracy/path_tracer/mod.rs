@@ -13,26 +13,28 @@
 mod brdf;
 mod camera;
 mod film;
+mod key;
 mod lights;
 mod path;
 mod sampler;
 mod surface;
 
 use std::sync::LazyLock;
+use std::time::Instant;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-pub use film::{Film, StandardError, Term};
+pub use film::{Film, PixelSums, StandardError, Term};
 
 use super::posed_triangles::{PosedSurface, PosedTriangles};
+use crate::disk_cache::{ContentKey, TextureHashes};
 use crate::lights::{LightsError, emits, posed_lights};
 use crate::prepare::Prepared;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Material, Pose};
 use crate::settings::Settings;
 use camera::CameraRays;
-use film::PixelSums;
 use lights::{Emitters, Punctual};
 use sampler::Sampler;
 use surface::SurfaceReader;
@@ -47,6 +49,13 @@ pub struct Options {
     pub seed: u64,
     pub pixel: PixelSampling,
     pub reflection: Reflection,
+}
+
+impl Options {
+    /// Comparable with a surface image of that size.
+    pub fn new(size_px: [u32; 2]) -> Self {
+        Self { size_px, seed: 0, pixel: PixelSampling::default(), reflection: Reflection::default() }
+    }
 }
 
 /// Where in a pixel rays go.
@@ -81,6 +90,8 @@ pub struct Scene<'a> {
     occlusion_cells: f64,
     rays: CameraRays,
     options: Options,
+    /// What they hold, for [`Self::key`].
+    textures: &'a TextureHashes,
 }
 
 impl<'a> Scene<'a> {
@@ -103,6 +114,7 @@ impl<'a> Scene<'a> {
             occlusion_cells: occlusion
                 .map_or(OCCLUSION_SHARE * f64::from(grid.cells()), |distance| distance / grid.span),
             rays: CameraRays::new(&camera, grid, options.size_px),
+            textures: prepared.texture_hashes(),
             triangles,
             readers,
             options,
@@ -114,6 +126,11 @@ impl<'a> Scene<'a> {
         &self.triangles.warnings
     }
 
+    /// What a picture of it is kept by on disk.
+    pub fn key(&self) -> ContentKey {
+        key::key(self)
+    }
+
     pub fn new_film(&self) -> Film {
         Film::new(self.options.size_px)
     }
@@ -121,14 +138,17 @@ impl<'a> Scene<'a> {
     /// One more sample a pixel. Counts rows to `progress`; a film whose step was cancelled has rows that are
     /// a sample ahead, which the next step leaves alone.
     pub fn step(&self, film: &mut Film, progress: &Progress) -> Result<(), Cancelled> {
+        let started = Instant::now();
         let width = film.size_px()[0] as usize;
         let index = film.samples();
         let rows = film.pixels.par_chunks_mut(width.max(1)).zip(&mut film.samples).enumerate();
-        rows.filter(|(_, (_, samples))| **samples == index).try_for_each(|(row, (pixels, samples))| {
+        let result = rows.filter(|(_, (_, samples))| **samples == index).try_for_each(|(row, (pixels, samples))| {
             self.sample_row(row, index, pixels);
             *samples += 1;
             progress.advance(1)
-        })
+        });
+        film.secs += started.elapsed().as_secs_f64();
+        result
     }
 
     /// As many samples a pixel as asked for, less those that the film has.

@@ -25,8 +25,9 @@ impl Shown {
         if !part.is_light() {
             return Self { exposure: 1.0, curve: ToneCurve::Linear };
         }
-        let mean = light.iter().map(light_of).sum::<f64>() / light.len().max(1) as f64;
-        let automatic = if mean > 0.0 { MEAN_SHOWN_AS / mean } else { 1.0 };
+        let stops = light.iter().filter(|pixel| pixel[3] > 0.0).map(light_of).filter(|nits| *nits > 0.0).map(f64::log2);
+        let (sum, count) = stops.fold((0.0, 0.0), |(sum, count), stops| (sum + stops, count + 1.0));
+        let automatic = if count > 0.0 { MEAN_SHOWN_AS / f64::exp2(sum / count) } else { 1.0 };
         Self { exposure: look.exposure_stops.map_or(automatic, f64::exp2), curve: look.tone_curve }
     }
 

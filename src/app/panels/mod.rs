@@ -14,6 +14,7 @@ pub mod node;
 mod node_facts;
 pub mod octree;
 pub mod plan;
+pub mod reference;
 pub mod scene;
 mod slice;
 mod surfaces;

@@ -1,6 +1,9 @@
 //! `octolume accuracy`: what moved voxels get wrong beside what they cost. Holes and spill against the
-//! exact posed voxelization, or shadows against rays through the posed triangles.
+//! exact posed voxelization, or shadows against rays through the posed triangles, or lit surfaces against
+//! the path tracer.
 
+mod race;
+mod rendering;
 mod shadows;
 mod voxels;
 
@@ -10,6 +13,8 @@ use anyhow::Context;
 use clap::Args;
 use octolume::accuracy;
 use octolume::settings::{ColorBy, MotionSettings, Settings, View};
+
+use rendering::RenderingOptions;
 
 use super::options::Common;
 use super::session::Session;
@@ -25,17 +30,20 @@ pub struct Accuracy {
     /// and none
     #[arg(long)]
     lighting: bool,
+    #[command(flatten)]
+    rendering: RenderingOptions,
     /// Prints JSON
     #[arg(long)]
     json: bool,
-    /// A folder to write the table into, .csv and .md, and two ghost pictures a row of voxels
+    /// A folder to write the table into, .csv and .md, and two ghost pictures a row of voxels, or three a term of
+    /// light: of cones, of paths, and where cones are too bright (red) or too dark (blue) by up to the mean
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Moments to compare, seconds; otherwise at 1/4, 1/2 and 3/4 of the clip, and for --lighting its start
+    /// Moments to compare, seconds; otherwise at 1/4, 1/2 and 3/4 of the clip, and for --lighting and --rendering its start
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = values::number, allow_hyphen_values = true)]
     times: Vec<f64>,
     /// Turns of the whole scene about its vertical axis, degrees; otherwise 0, 10 and 37 if no clip is played, and
-    /// for --lighting none
+    /// for --lighting and --rendering none
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = values::number, allow_hyphen_values = true)]
     turns: Vec<f64>,
     /// Grids to compare on; otherwise that of the settings
@@ -68,7 +76,7 @@ impl Accuracy {
         settings.look.view = View::Voxels;
         if self.lighting {
             settings.look.color = ColorBy::Radiance;
-        } else {
+        } else if !self.rendering.rendering {
             settings.look.accuracy = true;
         }
         let grids = if self.grids.is_empty() { vec![settings.discretization.grid] } else { self.grids.clone() };
@@ -76,7 +84,14 @@ impl Accuracy {
         if let Some(folder) = &self.output {
             std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
         }
-        if self.lighting {
+        if self.rendering.rendering {
+            let compare = |session: &mut Session, settings: &Settings, case: &Case| {
+                self.rendering.compare(session, settings, case)
+            };
+            let rows = self.compare_scenes(&settings, &grids, compare)?;
+            rendering::sentences(&rows).iter().for_each(|sentence| output::message(sentence));
+            self.write(&rows, &rendering::table(&rows))
+        } else if self.lighting {
             let rows = self.compare_scenes(&settings, &grids, shadows::compare)?;
             self.write(&rows, &shadows::table(&rows))
         } else {
@@ -127,7 +142,7 @@ impl Accuracy {
 
     fn poses(&self, session: &Session, motion: &MotionSettings) -> anyhow::Result<Vec<MotionSettings>> {
         Ok(match (self.times.is_empty(), self.turns.is_empty()) {
-            (true, true) if self.lighting => vec![motion.clone()],
+            (true, true) if self.lighting || self.rendering.rendering => vec![motion.clone()],
             (true, true) => accuracy::default_poses(&session.prepared, motion)?,
             (true, false) => accuracy::turned(motion, &self.turns),
             (false, true) => accuracy::at_times(motion, &self.times),

@@ -20,6 +20,7 @@ pub mod draw;
 pub mod emission;
 pub mod emission_ref;
 pub mod sum_luminance;
+pub mod sum_luminance_ref;
 
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{GpuBuffer, Kernel, PassBuilder};

@@ -1,0 +1,140 @@
+//! The path tracer beside the cones: starts and stops it, says how far it is and how sure, lays it over the
+//! picture, and lists how far cones are off.
+
+use egui::{Button, ProgressBar, RichText, Ui};
+
+use super::table::{self, Cell};
+use super::{choice, control, milliseconds, nothing, number, slider, unless};
+use crate::accuracy::picture_error::PictureError;
+use crate::app::commands::Command;
+use crate::app::reference::{Comparison, MeasuredPart, Order, PARTS, Reference, Traced};
+use crate::app::scale_ticks::short;
+use crate::app::theme;
+use crate::gpu::KernelTiming;
+use crate::settings::SurfaceView;
+
+pub struct ReferencePanel<'a> {
+    pub reference: &'a Reference,
+    /// Of the picture that is shown.
+    pub timings: &'a [KernelTiming],
+    pub is_surfaces: bool,
+    pub has_scene: bool,
+}
+
+pub fn ui(ui: &mut Ui, panel: &ReferencePanel<'_>) -> Vec<Command> {
+    let reference = panel.reference;
+    let mut orders = Vec::new();
+    run_ui(ui, panel, &mut orders);
+    let Some(traced) = reference.traced() else {
+        nothing(ui, "Nothing is traced yet.");
+        return orders.into_iter().map(Command::Reference).collect();
+    };
+    state_ui(ui, panel, traced);
+    compare_ui(ui, panel, &mut orders);
+    errors_ui(ui, traced, reference.measured());
+    times_ui(ui, panel.timings, traced);
+    orders.into_iter().map(Command::Reference).collect()
+}
+
+fn run_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, orders: &mut Vec<Order>) {
+    let reference = panel.reference;
+    let mut samples = reference.samples;
+    let tip = "Paths a pixel to end with; four times as many err half as much.";
+    control(ui, "Samples", tip, |ui| {
+        let response = ui.add(number(&mut samples, Reference::SAMPLES));
+        match reference.fraction() {
+            None => {
+                let start = ui.add_enabled(panel.has_scene, Button::new("Start"));
+                let tip = "Traces paths through the picture that is shown, on all cores but one; goes on where the \
+                           same picture was stopped.";
+                if start.on_hover_text(tip).clicked() {
+                    orders.push(Order::Start);
+                }
+            }
+            Some(fraction) => {
+                if ui.button("Stop").on_hover_text("What is traced stays.").clicked() {
+                    orders.push(Order::Stop);
+                }
+                ui.add(ProgressBar::new(fraction).desired_width(90.0).show_percentage());
+            }
+        }
+        response
+    });
+    if samples != reference.samples {
+        orders.push(Order::Samples(samples));
+    }
+}
+
+fn state_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, traced: &Traced) {
+    let error = traced.part(SurfaceView::Final).map_or(0.0, |part| part.relative_error);
+    let text =
+        format!("{} samples, {} s, standard error {} %", traced.samples, short(traced.secs), short(100.0 * error));
+    ui.label(text).on_hover_text("Of a pixel: root mean square over the picture, in parts of its mean luminance.");
+    if !panel.reference.is_of_shown() {
+        ui.label(RichText::new("It is of another picture: camera, scene or light have changed.").color(theme::WARNING));
+    } else if !panel.is_surfaces {
+        nothing(ui, "The view \"Surfaces\" is compared with it.");
+    }
+}
+
+fn compare_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, orders: &mut Vec<Order>) {
+    let reference = panel.reference;
+    let mut comparison = reference.comparison;
+    let ways = [
+        (Comparison::Cones, "Cones", "The picture alone."),
+        (Comparison::Paths, "Paths", "The path-traced picture in its place."),
+        (Comparison::Wipe, "Wipe", "Cones left of a divider that may be dragged, paths right of it."),
+        (Comparison::Difference, "Difference", "Red where cones are brighter than paths, blue where they are darker."),
+    ];
+    if choice(ui, "Compare", "What lies over the picture.", &mut comparison, &ways) {
+        orders.push(Order::Compare(comparison));
+    }
+    unless(ui, (comparison != Comparison::Wipe).then_some("Nothing is wiped."), |ui| {
+        let mut divider = reference.divider;
+        let place = slider(&mut divider, 0.0..=1.0).max_decimals(2);
+        if control(ui, "Divider", "Its place, from left to right.", |ui| ui.add(place)).changed() {
+            orders.push(Order::Divide(divider));
+        }
+    });
+}
+
+fn errors_ui(ui: &mut Ui, traced: &Traced, measured: &[MeasuredPart]) {
+    let rows = PARTS.into_iter().map(|part| {
+        let error = measured.iter().find(|measured| measured.part == part);
+        let cell = |value: Option<f64>| Cell::new(value.map_or("–".to_owned(), short));
+        let of = |value: fn(&PictureError) -> f64| cell(error.map(|e| value(&e.error)));
+        vec![
+            Cell::new(name(part)),
+            of(|error| error.rel_mse),
+            of(|error| error.bias),
+            of(|error| error.ssim),
+            cell(error.and_then(|error| error.error.flip)),
+            cell(traced.part(part).map(|part| part.relative_error)),
+        ]
+    });
+    let columns = [("part", 0.0), ("relMSE", 52.0), ("bias", 52.0), ("SSIM", 44.0), ("FLIP", 44.0), ("± paths", 50.0)];
+    table::show(ui, "errors of cones", &columns, rows.collect());
+}
+
+fn name(part: SurfaceView) -> &'static str {
+    match part {
+        SurfaceView::Direct => "Direct",
+        SurfaceView::Diffuse => "Diffuse",
+        SurfaceView::Specular => "Specular",
+        SurfaceView::Ao => "Occlusion",
+        _ => "Final",
+    }
+}
+
+fn times_ui(ui: &mut Ui, timings: &[KernelTiming], traced: &Traced) {
+    let ms = |of: &[&str]| -> f64 {
+        let is_of = |timing: &&KernelTiming| of.iter().any(|stage| timing.kernel.starts_with(stage));
+        timings.iter().filter(is_of).map(|timing| timing.ms).sum()
+    };
+    let cones = milliseconds(ms(&["cones/"]));
+    let picture = milliseconds(ms(&["cones/", "surface/", "view/show_surfaces"]));
+    let text = format!("Cones {cones} ms, all of the picture {picture} ms; paths {} s", short(traced.secs));
+    ui.label(RichText::new(text).color(theme::WEAK)).on_hover_text(
+        "Time on the GPU of the picture that is shown, octree and its light not counted; paths on the CPU.",
+    );
+}
