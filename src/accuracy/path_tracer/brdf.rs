@@ -191,3 +191,27 @@ fn visible_normal(view: DVec3, alpha: f64, [u, v]: [f64; 2]) -> DVec3 {
     let normal = x * across + y * up + (1.0 - x * x - y * y).max(0.0).sqrt() * stretched;
     DVec3::new(alpha * normal.x, alpha * normal.y, normal.z.max(0.0)).normalize()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_is_orthonormal_around_every_axis_and_diagonal() {
+        let steps = [-1.0, 0.0, 1.0];
+        let all = steps.into_iter().flat_map(|x| steps.map(|y| (x, y))).flat_map(|(x, y)| steps.map(|z| [x, y, z]));
+        let normals = all.filter_map(|axes| DVec3::from_array(axes).try_normalize());
+        for normal in normals.chain([DVec3::new(1e-9, -1e-9, -1.0), DVec3::NEG_Z]) {
+            let frame = frame(normal);
+            assert!((frame.transpose() * frame - DMat3::IDENTITY).to_cols_array().iter().all(|x| x.abs() < 1e-12));
+            assert!((frame.determinant() - 1.0).abs() < 1e-12 && frame.z_axis == normal, "{normal}");
+        }
+    }
+
+    #[test]
+    fn light_and_eye_can_be_swapped() {
+        let brdf = Brdf::new(DVec3::Z, DVec3::new(0.9, 0.5, 0.1), 0.4, 0.3);
+        let [a, b] = [DVec3::new(0.3, 0.2, 0.9), DVec3::new(-0.7, 0.1, 0.4)].map(DVec3::normalize);
+        assert!((brdf.both(a, b) - brdf.both(b, a)).length() < 1e-12);
+    }
+}

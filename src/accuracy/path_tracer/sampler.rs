@@ -1,8 +1,9 @@
 //! Numbers from 0 to 1 for one sample of one pixel: an Owen-scrambled Sobol sequence a pixel (Burley 2020),
 //! four dimensions at a time.
 //!
-//! Seed, pixel and sample decide, and nothing else: threads and earlier pictures do not. At 64 samples of
-//! the courtyard's diffuse light it errs as independent numbers do at more than twice as many.
+//! Seed, pixel and sample decide, and nothing else: threads and earlier pictures do not. Measured at 64
+//! samples over six seeds, the variance of independent numbers is this much larger: an emitting wall over a
+//! floor 15 times (first bounce), its occlusion 12; the courtyard's occlusion 5.5, its diffuse light 1.15.
 
 /// Samples of one sequence; the next ones start another.
 const SEQUENCE: u64 = 1 << 16;

@@ -24,8 +24,11 @@ use crate::cli::{output, values::Size};
 
 const SIZE_PX: [u32; 2] = [320, 180];
 const SAMPLES: u32 = 256;
-/// What is shown, and the terms that are read from that frame, each with how the kernels that make it begin.
-const FRAMES: [(SurfaceView, &[(SurfaceView, &[&str])]); 2] = [
+/// A term, and how the kernels that make it begin.
+type TermKernels = (SurfaceView, &'static [&'static str]);
+
+/// What is shown, and the terms that are read from that frame.
+const FRAMES: [(SurfaceView, &[TermKernels]); 2] = [
     (
         SurfaceView::Final,
         &[
