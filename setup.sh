@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what Octolume needs on a bare Debian 12 (other systems: a C compiler, a Vulkan
+# Installs what Octolume needs on a bare Debian 12 (other systems: C and C++ compilers, a Vulkan
 # driver and rustup), then opens the built-in scene; without a display it renders it to
 # octolume.png instead. `setup.sh --install-only` stops after installing.
 set -euo pipefail
@@ -21,7 +21,7 @@ install_debian() {
     export DEBIAN_FRONTEND=noninteractive
     add_backports
     as_root apt-get -qq update
-    as_root apt-get -qq install -y --no-install-recommends ca-certificates curl git gcc libc6-dev \
+    as_root apt-get -qq install -y --no-install-recommends ca-certificates curl git g++ libc6-dev \
         libvulkan1 xvfb xauth xdotool imagemagick fonts-dejavu-core jq x11-apps \
         libx11-6 libx11-xcb1 libxcursor1 libxi6 libxrandr2 libxkbcommon0 libxkbcommon-x11-0 xkb-data
     as_root apt-get -qq install -y --no-install-recommends -t bookworm-backports mesa-vulkan-drivers
@@ -30,7 +30,7 @@ install_debian() {
 if [ -r /etc/os-release ] && grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
     install_debian >&2
 else
-    echo "setup.sh: not Debian 12; install a C compiler and a Vulkan driver (Mesa 24 or newer, or the vendor's) yourself" >&2
+    echo "setup.sh: not Debian 12; install C and C++ compilers and a Vulkan driver (Mesa 24 or newer, or the vendor's) yourself" >&2
 fi
 if ! command -v cargo >/dev/null; then
     curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh -s -- -y --profile minimal --component clippy,rustfmt >&2

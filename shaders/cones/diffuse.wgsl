@@ -41,6 +41,7 @@ override WORKGROUP_SIZE: u32 = 64u;
 fn hemisphere(s: Surface, part: u32) -> vec4<f32> {
     let basis = basis_of(s.normal);
     let apex = s.position + params.shape.start_cells * s.face;
+    set_horizon(s.position, s.face);
     let parts = params.pattern_px * params.pattern_px;
     var sum = vec4<f32>(0.0);
     for (var i = 0u; i < params.count; i += 1u) {

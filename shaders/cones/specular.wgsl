@@ -54,6 +54,7 @@ fn reflection(s: Surface) -> vec4<f32> {
     shape.widening = lobe_widening(s.roughness);
     let apex = s.position + shape.start_cells * s.face;
     let direction = above_face(reflect(s.from_eye, s.normal), s.face);
+    set_horizon(s.position, s.face);
     let seen = trace_cone(shape, 0.0, apex, direction);
     return vec4<f32>(seen.radiance + seen.through * params.sky, 1.0);
 }

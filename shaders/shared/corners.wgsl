@@ -74,13 +74,17 @@ fn entry_in(block: BlockLight, key: u32) -> u32 {
     return select(NO_BLOCK, block.first + countOneBits(block.children & (bit - 1u)), (block.children & bit) != 0u);
 }
 
-// Corners in a dense level.
-fn dense_corners(level: u32, way: Way) -> Corners {
-    var corners = no_corners();
-    for (var hops = 0u; hops < 8u; hops += 1u) {
-        if (hops & way.closed) == 0u {
-            corners.entries[hops | way.below] = octree.levels[level].first_node + key_after(way, hops);
-        }
+// Corners in a dense level, whose nodes all lie in Morton order. A key outside the grid has all bits.
+fn dense_corners(level: u32, base: vec3<i32>) -> Corners {
+    let last = vec3<i32>((1 << level) - 1);
+    let near = select(vec3<u32>(NO_BLOCK), axis_keys(vec3<u32>(base)), base >= vec3<i32>(0));
+    let far = select(vec3<u32>(NO_BLOCK), axis_keys(vec3<u32>(base + 1)), base < last);
+    let first = octree.levels[level].first_node;
+    var corners: Corners;
+    for (var j = 0u; j < 8u; j += 1u) {
+        let keys = select(near, far, corner_offset(j) == vec3<u32>(1u));
+        let key = keys.x | keys.y | keys.z;
+        corners.entries[j] = select(first + key, NO_BLOCK, key == NO_BLOCK);
     }
     return corners;
 }

@@ -65,10 +65,10 @@ fn linked_entry(level: u32, node: vec3<i32>) -> u32 {
 
 // With a pointer a node, every corner is hopped to, as in the paper; with one a block, every block.
 fn linked_corners(level: u32, base: vec3<i32>) -> Corners {
-    let way = way_from(base, i32(1u << level));
     if level <= octree.dense_level {
-        return dense_corners(level, way);
+        return dense_corners(level, base);
     }
+    let way = way_from(base, i32(1u << level));
     var corners = no_corners();
     var nodes: array<u32, 8>;
     nodes[0] = descend(level, key_after(way, 0u));

@@ -35,10 +35,10 @@ fn ranked_entry(level: u32, node: vec3<i32>) -> u32 {
 }
 
 fn ranked_corners(level: u32, base: vec3<i32>) -> Corners {
-    let way = way_from(base, i32(1u << level));
     if level <= octree.dense_level {
-        return dense_corners(level, way);
+        return dense_corners(level, base);
     }
+    let way = way_from(base, i32(1u << level));
     var corners = no_corners();
     // Without the first node none of the eight is occupied: it would be their dummy.
     if !has_block(level, key_after(way, 0u)) {

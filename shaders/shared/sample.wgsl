@@ -6,6 +6,10 @@
 // opacities, 1 − Σ d_i² a_i, one-voxel walls lose half of what they stop at 45°.)
 // Positions in cells from the grid's corner; cell i spans i … i + 1. Outside the grid all is zero.
 //
+// Beside a surface, HORIZON leaves out the nodes that its own plane may cut: a wide cone would take the surface
+// that it looks up from for something in its way. A node counts by how far it lies above the horizon, in full
+// from HORIZON_FADE of its width on, and the others' weights make up for it down to HORIZON_SHARE of all.
+//
 // The kernel declares `light`, and says how nodes are found: `entry_of(level, node)`, and
 // `corners_of(level, base)`; see shared/corners.wgsl.
 #import shared/corners.wgsl
@@ -13,6 +17,30 @@
 override DIRECTIONAL: bool = false;
 // One of FILTER_*.
 override FILTER: u32 = FILTER_QUADRILINEAR;
+override HORIZON: bool = false;
+
+// The plane below which nodes do not count: its unit normal n, and n · p of its points p. The kernel sets it.
+var<private> horizon: vec4<f32>;
+
+fn set_horizon(position: vec3<f32>, face: vec3<f32>) {
+    horizon = vec4<f32>(face, dot(face, position) + HORIZON_CELLS);
+}
+
+// Height above the horizon of a node's lowest point, in widths of the node.
+fn node_height(node: vec3<f32>, width: f32) -> f32 {
+    let n = horizon.xyz;
+    return dot(n, node + 0.5) - 0.5 * dot(abs(n), vec3<f32>(1.0)) - horizon.w / width;
+}
+
+// The part for which a node of that height counts.
+fn part_above(height: f32) -> f32 {
+    return clamp(height / HORIZON_FADE, 0.0, 1.0);
+}
+
+// From the weighted sum over nodes and the share of weight that counted.
+fn made_up(sum: vec4<f32>, share: f32) -> vec4<f32> {
+    return sum / max(share, HORIZON_SHARE);
+}
 
 // Cells a node of a level spans.
 fn node_width(level: u32) -> f32 {
@@ -21,11 +49,10 @@ fn node_width(level: u32) -> f32 {
 
 // What one node holds. Leaves are alike along all axes.
 fn light_at(entry: u32, direction: vec3<f32>, width: f32) -> vec4<f32> {
-    if entry == NO_BLOCK {
-        return vec4<f32>(0.0);
-    }
-    let stored = light[entry];
-    if !DIRECTIONAL || entry >= octree.inner_node_count || stored.w == 0.0 {
+    // Without a branch, which costs more than a look at some node.
+    let is_there = entry != NO_BLOCK;
+    let stored = select(vec4<f32>(0.0), light[select(0u, entry, is_there)], is_there);
+    if !DIRECTIONAL || !is_there || entry >= octree.inner_node_count || stored.w == 0.0 {
         return stored;
     }
     let axes = light[octree.inner_node_count + octree.leaf_count + entry].xyz;
@@ -42,7 +69,12 @@ fn sample_nearest(level: u32, p: vec3<f32>, direction: vec3<f32>) -> vec4<f32> {
     if !(all(node >= vec3<f32>(0.0)) && all(node < vec3<f32>(f32(1u << level)))) {
         return vec4<f32>(0.0);
     }
-    return light_at(entry_of(level, vec3<i32>(node)), direction, width);
+    let seen = light_at(entry_of(level, vec3<i32>(node)), direction, width);
+    if !HORIZON {
+        return seen;
+    }
+    let part = part_above(node_height(node, width));
+    return made_up(part * seen, part);
 }
 
 fn sample_trilinear(level: u32, p: vec3<f32>, direction: vec3<f32>) -> vec4<f32> {
@@ -53,12 +85,33 @@ fn sample_trilinear(level: u32, p: vec3<f32>, direction: vec3<f32>) -> vec4<f32>
     if !(all(base >= vec3<f32>(-1.0)) && all(base < vec3<f32>(f32(1u << level)))) {
         return vec4<f32>(0.0);
     }
-    let f = lattice - base;
     let corners = corners_of(level, vec3<i32>(base));
-    var sum = vec4<f32>(0.0);
+    var weights = corner_weights(lattice - base);
+    if !HORIZON {
+        return weighted_light(corners, weights, direction, width);
+    }
+    let height = node_height(base, width);
+    var share = 0.0;
+    for (var j = 0u; j < 8u; j += 1u) {
+        weights[j] *= part_above(height + dot(horizon.xyz, vec3<f32>(corner_offset(j))));
+        share += weights[j];
+    }
+    return made_up(weighted_light(corners, weights, direction, width), share);
+}
+
+fn corner_weights(f: vec3<f32>) -> array<f32, 8> {
+    var weights: array<f32, 8>;
     for (var j = 0u; j < 8u; j += 1u) {
         let w = select(1.0 - f, f, corner_offset(j) == vec3<u32>(1u));
-        sum += w.x * w.y * w.z * light_at(corners.entries[j], direction, width);
+        weights[j] = w.x * w.y * w.z;
+    }
+    return weights;
+}
+
+fn weighted_light(corners: Corners, weights: array<f32, 8>, direction: vec3<f32>, width: f32) -> vec4<f32> {
+    var sum = vec4<f32>(0.0);
+    for (var j = 0u; j < 8u; j += 1u) {
+        sum += weights[j] * light_at(corners.entries[j], direction, width);
     }
     return sum;
 }

@@ -9,6 +9,7 @@ mod lights;
 mod models;
 mod node;
 mod pictures;
+mod reference;
 mod reports;
 mod scenes;
 mod wrong_usage;

@@ -1,6 +1,7 @@
 //! Cones from the surfaces that a camera sees, against the f64 reference.
 
 use glam::{DVec3, Vec3};
+use octolume::data::surface_image::SurfaceTexel;
 use octolume::settings::lighting::Opacity;
 use octolume::settings::{ConeTracing, Filter, Lookup, Sampling};
 use octolume::stages::cones::diffuse::{DiffuseCones, DiffuseTerms};
@@ -16,21 +17,21 @@ use crate::random;
 use crate::stage_build::Shape;
 use crate::view_rig::{camera, grid};
 
-const DEPTH: u32 = 5;
-const SIZE_PX: [u32; 2] = [37, 21];
-const SKY: [f32; 3] = [1.0, 2.0, 0.5];
+pub const DEPTH: u32 = 5;
+pub const SIZE_PX: [u32; 2] = [37, 21];
+pub const SKY: [f32; 3] = [1.0, 2.0, 0.5];
 
 fn colourful(cell: Cell, a: f64) -> (DVec3, f64) {
     (DVec3::from_array(cell.map(|c| f64::from(c % 5) * 0.25)), a)
 }
 
-fn random_octree(seed: u64, count: usize) -> LitBuild {
+pub fn random_octree(seed: u64, count: usize) -> LitBuild {
     LitBuild::new(gpu(), &random::scene(seed, count, DEPTH), &Shape::new(DEPTH, 2, Filter::Split), colourful)
 }
 
 /// Surfaces at all depths of the grid and around it, facing everywhere, with normals that are not their
 /// faces', and background between them.
-fn scattered() -> Photo {
+pub fn scattered() -> Photo {
     let grid = grid(DEPTH);
     let camera = camera(&grid, DVec3::new(1.0, 0.5, 1.3), 1.4);
     Photo::new(gpu(), (&grid, &camera), SIZE_PX, |[x, y], ray| {
@@ -41,25 +42,16 @@ fn scattered() -> Photo {
         let turn = |i: f64| DVec3::new((i * 0.7).sin(), (i * 1.3).cos(), (i * 2.1).sin() * 0.8).normalize();
         let (face, tilted) = (turn(i), turn(i + 0.3));
         let normal = if tilted.dot(face) > 0.2 { tilted } else { face };
-        dull(ray.start_cells + 8.0 + (i * 5.3) % 40.0, face).with_normal(normal)
+        let distance = ray.start_cells + 8.0 + (i * 5.3) % 40.0;
+        SurfaceTexel { normal, roughness: (i * 0.37) % 1.0, metallic: (i % 3.0) / 2.0, ..dull(distance, face) }
     })
 }
 
-trait WithNormal {
-    fn with_normal(self, normal: DVec3) -> Self;
-}
-
-impl WithNormal for octolume::data::surface_image::SurfaceTexel {
-    fn with_normal(self, normal: DVec3) -> Self {
-        Self { normal, ..self }
-    }
-}
-
 /// How far a cone's mean may be off: it ends early with LEAST_LIGHT to go. A place is off by the roundings of a
-/// pixel's ray and of a sum of steps, 2^-24 of 128 cells a step; α changes by at most 3 a cell and stands in a
-/// power of up to 32.
-fn tolerance() -> f64 {
-    2.0 * (LEAST_LIGHT + 3.0 * 32.0 * 128.0 * 32.0 * 2.0_f64.powi(-24))
+/// pixel's ray and of a sum of steps, 2^-24 of 64 cells a step; α changes by at most 3 a cell, beside a horizon
+/// five times that and four times as much again where the rest is made up for, and stands in a power of up to 32.
+pub fn tolerance() -> f64 {
+    2.0 * (LEAST_LIGHT + 3.0 * 5.0 * 4.0 * 32.0 * 64.0 * 2.0_f64.powi(-24))
 }
 
 #[test]

@@ -39,6 +39,29 @@ pub fn plane_distance(ray: &PixelRay, point: DVec3, normal: DVec3) -> Option<f64
     (ray.direction.dot(normal) < 0.0 && t > 0.0).then_some(ray.start_cells + t)
 }
 
+/// A point of the grid in the scene.
+fn world(grid: &Grid, cells: DVec3) -> DVec3 {
+    grid.corner() + cells * grid.span
+}
+
+/// Side of the images of [`spot`]: a whole pattern of any size.
+pub const SPOT_PX: u32 = 4;
+
+/// A few pixels that all see the same point of a plane.
+pub fn spot(gpu: &Gpu, grid: &Grid, point: DVec3, face: DVec3) -> Photo {
+    // Aside of the face, whichever axis is up.
+    let eye = world(grid, point + 20.0 * (face + DVec3::new(0.02, 0.03, 0.025)).normalize());
+    let camera = OrbitCamera { eye, target: world(grid, point), fov_y_degrees: 0.001 };
+    Photo::new(gpu, (grid, &camera), [SPOT_PX; 2], |_, ray| {
+        plane_distance(ray, point, face).map_or(NOTHING, |distance| dull(distance, face))
+    })
+}
+
+/// Mean of all pixels.
+pub fn mean(image: &[[f32; 4]]) -> [f64; 4] {
+    [0, 1, 2, 3].map(|channel| image.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / image.len() as f64)
+}
+
 /// Surfaces on the GPU with what was stored of them.
 pub struct Photo {
     pub rays: PixelRays,

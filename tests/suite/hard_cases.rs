@@ -15,7 +15,7 @@ const SECTIONS: [(&str, usize); 9] = [
     ("Octree and neighbour pointers", 9),
     ("Averaging", 4),
     ("Light", 9),
-    ("Rays and cones", 12),
+    ("Rays and cones", 15),
     ("Camera, window, device", 16),
 ];
 

@@ -2,6 +2,7 @@
 //! exact posed voxelization, or shadows against rays through the posed triangles, or lit surfaces against
 //! the path tracer.
 
+mod race;
 mod rendering;
 mod shadows;
 mod voxels;

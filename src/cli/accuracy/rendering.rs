@@ -9,13 +9,13 @@ use std::path::Path;
 use anyhow::Context;
 use clap::Args;
 use image::DynamicImage;
-use octolume::accuracy::path_tracer::{Film, Options, Scene, Term};
+use octolume::accuracy::path_tracer::{Film, Options, Term};
 use octolume::accuracy::picture_error::{self, LightPixel, PictureError, Shown, difference_map, difference_scale};
 use octolume::export;
-use octolume::progress::Progress;
 use octolume::settings::{Settings, SurfaceView, View};
 use serde::Serialize;
 
+use super::race::{Race, flip};
 use super::{Case, Table};
 use crate::cli::reference::traced;
 use crate::cli::session::Session;
@@ -24,16 +24,20 @@ use crate::cli::{output, values::Size};
 
 const SIZE_PX: [u32; 2] = [320, 180];
 const SAMPLES: u32 = 256;
-/// Terms, and the kernels that make them begin so.
-const TERMS: [(SurfaceView, &[&str]); 5] = [
-    (SurfaceView::Direct, &["surface/emission", "surface/direct"]),
-    (SurfaceView::Diffuse, &["cones/diffuse", "cones/blur", "cones/upsample"]),
-    (SurfaceView::Specular, &["cones/glossy", "cones/list", "cones/specular"]),
-    (SurfaceView::Ao, &["cones/diffuse", "cones/blur", "cones/upsample"]),
-    (SurfaceView::Final, &["surface/", "cones/"]),
+/// What is shown, and the terms that are read from that frame, each with how the kernels that make it begin.
+const FRAMES: [(SurfaceView, &[(SurfaceView, &[&str])]); 2] = [
+    (
+        SurfaceView::Final,
+        &[
+            (SurfaceView::Direct, &["surface/emission", "surface/direct"]),
+            (SurfaceView::Diffuse, &["cones/diffuse", "cones/blur", "cones/upsample"]),
+            (SurfaceView::Specular, &["cones/glossy", "cones/list", "cones/specular"]),
+            (SurfaceView::Final, &["surface/", "cones/"]),
+        ],
+    ),
+    // Beside light, cones need not tell what is near.
+    (SurfaceView::Ao, &[(SurfaceView::Ao, &["cones/diffuse", "cones/blur", "cones/upsample"])]),
 ];
-/// Another picture of the path tracer than the one that is the truth.
-const OTHER_SEED: u64 = 0x0c70_1ae0;
 
 #[derive(Debug, Args)]
 pub struct RenderingOptions {
@@ -72,21 +76,9 @@ pub struct Row {
     /// Standard error of the truth over its mean: of pixels, root mean square, and of the whole picture.
     paths_error: f64,
     paths_mean_error: f64,
-    /// Of the final picture: what as many paths bring as fit in the time of the cones.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    equal_time: Option<PathsError>,
-    /// The first of 1, 2, 4 … samples a pixel with which paths look as right as cones.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    as_right: Option<PathsError>,
-}
-
-/// A picture of a few paths beside the truth.
-#[derive(Clone, Copy, Serialize)]
-struct PathsError {
-    samples: u32,
-    secs: f64,
+    /// Of the final picture.
     #[serde(flatten)]
-    error: PictureError,
+    race: Option<Race>,
 }
 
 /// What cones bring, and what paths do.
@@ -103,66 +95,37 @@ impl RenderingOptions {
         let size_px = self.size.map_or(SIZE_PX, |Size(size_px)| size_px);
         let mut settings = settings.clone();
         (settings.look.view, settings.look.surface) = (View::Surfaces, SurfaceView::Final);
-        settings.cone_tracing.ambient_occlusion = true;
-        let kernels_ms = measure(session, &settings, size_px, case.runs)?;
         let options = Options { seed: self.seed.unwrap_or(0), ..Options::new(size_px) };
         let samples = self.samples.unwrap_or(SAMPLES);
         let film = traced((&session.prepared, session.disk()), &settings, options, samples)?;
         let mut rows = Vec::new();
-        for (part, kernels) in TERMS {
-            let Some(cones) = session.engine.read_surface_part(part)? else { continue };
-            let truth = film.shown(part, &settings.lighting).context("paths show every term")?;
-            let shown = Shown::new(&settings.look, part, &truth);
-            let term = Compared { part, cones: &cones, truth: &truth, shown };
-            if let Some(folder) = case.folder {
-                let stem = format!("{}-{}-{}", session.prepared.scene.name, settings.discretization.grid, case.number);
-                term.draw(&settings, size_px, &folder.join(stem))?;
+        for (surface, terms) in FRAMES {
+            settings.look.surface = surface;
+            let kernels_ms = measure(session, &settings, size_px, case.runs)?;
+            for (part, kernels) in terms {
+                let belongs = |kernel: &str| kernels.iter().any(|start| kernel.starts_with(start));
+                let cones_ms = kernels_ms.iter().filter(|(kernel, _)| belongs(kernel)).map(|(_, ms)| ms).sum();
+                let Some(cones) = session.engine.read_surface_part(*part)? else { continue };
+                let truth = film.shown(*part, &settings.lighting).context("paths show every term")?;
+                let shown = Shown::new(&settings.look, *part, &truth);
+                let term = Compared { part: *part, cones: &cones, truth: &truth, shown };
+                if let Some(folder) = case.folder {
+                    term.draw(&settings, size_px, &folder.join(stem(session, &settings, case.number)))?;
+                }
+                rows.push(term.row(session, &settings, &film, cones_ms)?);
             }
-            let belongs = |kernel: &str| kernels.iter().any(|start| kernel.starts_with(start));
-            let cones_ms = kernels_ms.iter().filter(|(kernel, _)| belongs(kernel)).map(|(_, ms)| ms).sum();
-            rows.push(term.row(session, &settings, &film, cones_ms)?);
         }
-        if let Some(row) = rows.last_mut().filter(|row| row.term == SurfaceView::Final) {
-            let other = Options { seed: options.seed ^ OTHER_SEED, ..options };
-            (row.equal_time, row.as_right) = race(session, &settings, (&film, other), row)?;
+        settings.look.surface = SurfaceView::Final;
+        for row in rows.iter_mut().filter(|row| row.term == SurfaceView::Final) {
+            let cones = (row.cones_ms / 1e3, row.error);
+            row.race = Some(Race::run(session, &settings, (&film, options), cones)?);
         }
         Ok(rows)
     }
 }
 
-/// Paths against the cones of `row`: how right they are in its time, and when they get as right.
-fn race(
-    session: &Session,
-    settings: &Settings,
-    (truth, options): (&Film, Options),
-    row: &Row,
-) -> anyhow::Result<(Option<PathsError>, Option<PathsError>)> {
-    let scene = Scene::new(&session.prepared, settings, options)?;
-    let light = |film: &Film| film.shown(row.term, &settings.lighting).context("paths show every term");
-    let truth_light = light(truth)?;
-    let shown = Shown::new(&settings.look, row.term, &truth_light);
-    let mut film = scene.new_film();
-    let (mut equal_time, mut as_right) = (None, None);
-    // A truth that is hardly better than what is judged by it would say nothing.
-    while film.samples() < truth.samples() / 4 && (equal_time.is_none() || as_right.is_none()) {
-        let secs_a_sample = film.secs() / f64::from(film.samples().max(1));
-        let samples = (2 * film.samples()).max(1);
-        scene.trace(&mut film, samples, &Progress::default())?;
-        let error = picture_error::compare(&light(&film)?, &truth_light, film.size_px(), &shown)?;
-        let found = PathsError { samples: film.samples(), secs: film.secs(), error };
-        if equal_time.is_none() && film.secs() + 2.0 * secs_a_sample >= row.cones_ms / 1e3 {
-            equal_time = Some(found);
-        }
-        if as_right.is_none() && looks_off(&error) <= looks_off(&row.error) {
-            as_right = Some(found);
-        }
-    }
-    Ok((equal_time, as_right))
-}
-
-/// FLIP, or what stands in for it.
-fn looks_off(error: &PictureError) -> f64 {
-    error.flip.unwrap_or(1.0 - error.ssim)
+fn stem(session: &Session, settings: &Settings, number: usize) -> String {
+    format!("{}-{}-{number}", session.prepared.scene.name, settings.discretization.grid)
 }
 
 /// Medians of every kernel behind lit surfaces, after a run that is not measured.
@@ -226,8 +189,7 @@ impl Compared<'_> {
             samples: film.samples(),
             paths_error: stated.relative,
             paths_mean_error: stated.relative_of_mean,
-            equal_time: None,
-            as_right: None,
+            race: None,
         })
     }
 }
@@ -274,13 +236,8 @@ fn cells(row: &Row) -> Vec<String> {
 /// What the table has no room for: paths in the time of cones.
 pub fn sentences(rows: &[Row]) -> Vec<String> {
     let of_row = |row: &Row| {
-        let flip = |error: &PictureError| error.flip.map(|flip| format!("FLIP {flip:.4}")).unwrap_or_default();
-        let told =
-            |paths: &PathsError| format!("{} samples, {:.2} s, {}", paths.samples, paths.secs, flip(&paths.error));
-        let equal = row.equal_time.as_ref().map(told)?;
-        let as_right = row.as_right.as_ref().map_or("not within a quarter of the truth's samples".to_owned(), told);
-        let (scene, secs, cones) = (&row.scene, row.cones_ms / 1e3, flip(&row.error));
-        Some(format!("{scene}: cones {secs:.2} s, {cones}; paths in that time: {equal}; as right: {as_right}"))
+        let (scene, secs) = (&row.scene, row.cones_ms / 1e3);
+        Some(format!("{scene}: cones {secs:.2} s, {}; {}", flip(&row.error), row.race.as_ref()?.text()))
     };
     rows.iter().filter_map(of_row).collect()
 }

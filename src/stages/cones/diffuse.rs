@@ -96,7 +96,7 @@ pub fn record(
 ) {
     let flag = |on: bool| f64::from(u8::from(on));
     let mut constants = sampler.constants().to_vec();
-    constants.extend([("RADIANCE", flag(terms.radiance)), ("OCCLUSION", flag(terms.occlusion))]);
+    constants.extend([("HORIZON", 1.0), ("RADIANCE", flag(terms.radiance)), ("OCCLUSION", flag(terms.occlusion))]);
     let pass = frame.pass(&gpu.kernel("cones/diffuse.wgsl", &constants));
     input
         .surfaces

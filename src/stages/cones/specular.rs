@@ -68,7 +68,9 @@ pub fn record(
     frame.clear(specular);
     let octree = input.octree;
     let threads = u64::from(listed) * u64::from(TILE_PX * TILE_PX);
-    let pass = frame.pass(&gpu.kernel("cones/specular.wgsl", &sampler.value_constants()));
+    let [filter, directional] = sampler.value_constants();
+    let constants = [filter, directional, ("HORIZON", 1.0)];
+    let pass = frame.pass(&gpu.kernel("cones/specular.wgsl", &constants));
     input
         .surfaces
         .bind(pass)

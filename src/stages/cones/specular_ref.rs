@@ -6,7 +6,7 @@ use super::diffuse_ref::{SurfacePoint, above_face};
 use super::specular::aperture_degrees;
 use crate::settings::Sampling;
 use crate::stages::light::gather::Cones;
-use crate::stages::light::gather_ref::trace_open;
+use crate::stages::light::gather_ref::{TraceRules, trace_open};
 use crate::stages::sample::sample_points_ref::LitNodes;
 
 /// Radiance along the mirrored direction, `cones` with the aperture of the roughness, `from_eye` a unit vector.
@@ -19,6 +19,7 @@ pub fn specular(
     let cones = Cones { aperture_degrees: aperture_degrees(roughness), ..*cones };
     let mirrored = from_eye - 2.0 * from_eye.dot(point.normal) * point.normal;
     let apex = point.position + cones.start_cells * point.face;
-    let (seen, _) = trace_open(lit, (&cones, sampling, 0.0), apex, above_face(mirrored, point.face));
+    let rules = TraceRules { cones: &cones, sampling, occlusion_cells: 0.0, horizon: Some(point.horizon()) };
+    let (seen, _) = trace_open(lit, &rules, apex, above_face(mirrored, point.face));
     seen.radiance + sky * seen.through
 }

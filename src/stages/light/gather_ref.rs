@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 
 use super::gather::Cones;
 use crate::settings::Sampling;
-use crate::stages::sample::sample_points_ref::LitNodes;
+use crate::stages::sample::sample_points_ref::{Horizon, LitNodes};
 use crate::stages::view::SHORT_NORMAL;
 
 /// Means over cones.
@@ -44,16 +44,24 @@ pub fn basis(n: DVec3) -> DMat3 {
 
 /// One cone from its apex.
 pub fn trace(lit: &LitNodes, cones: &Cones, apex: DVec3, direction: DVec3) -> Seen {
-    trace_open(lit, (cones, Sampling::Quadrilinear, 0.0), apex, direction).0
+    let rules = TraceRules { cones, sampling: Sampling::Quadrilinear, occlusion_cells: 0.0, horizon: None };
+    trace_open(lit, &rules, apex, direction).0
 }
 
-/// The same by any sampling, and the share that comes through up to a distance in cells.
-pub fn trace_open(
-    lit: &LitNodes,
-    (cones, sampling, occlusion_cells): (&Cones, Sampling, f64),
-    apex: DVec3,
-    direction: DVec3,
-) -> (Seen, f64) {
+/// How a cone is traced.
+#[derive(Clone, Copy, Debug)]
+pub struct TraceRules<'a> {
+    pub cones: &'a Cones,
+    pub sampling: Sampling,
+    /// What is farther away leaves a cone open.
+    pub occlusion_cells: f64,
+    /// Of the surface that it starts at.
+    pub horizon: Option<Horizon>,
+}
+
+/// One cone by these rules, and the share that comes through up to the distance of occlusion.
+pub fn trace_open(lit: &LitNodes, rules: &TraceRules<'_>, apex: DVec3, direction: DVec3) -> (Seen, f64) {
+    let TraceRules { cones, sampling, occlusion_cells, ref horizon } = *rules;
     let diameter = |t: f64| (t * cones.widening()).max(1.0);
     let (enter, leave) = inside(apex, direction, f64::from(1_u32 << lit.depth));
     let end = leave.min(cones.reach_cells);
@@ -63,7 +71,7 @@ pub fn trace_open(
     while t < end {
         let length = (cones.step_diameters * diameter(t)).min(end - t);
         let middle = t + length / 2.0;
-        let sample = lit.at_width(sampling, diameter(middle), apex + direction * middle, direction);
+        let sample = lit.at_width((sampling, horizon.as_ref()), diameter(middle), apex + direction * middle, direction);
         if sample.alpha > 0.0 {
             let passes = |length: f64| (1.0 - sample.alpha).max(0.0).powf(length);
             if t < occlusion_cells {

@@ -18,6 +18,14 @@ pub const FILTER_QUADRILINEAR: u32 = 2;
 /// Along an axis a node lets through no less than this, the last place of an f32 opacity.
 pub const LEAST_THROUGH: f64 = 1.0 / (1 << 24) as f64;
 
+/// Nodes count for the cones of a surface where they lie as far above its plane: the split filter spreads a
+/// voxel into the cells around it.
+pub const HORIZON_CELLS: f64 = 1.0;
+/// Above that, nodes count in full from this part of their width on, so that nothing jumps as surfaces move.
+pub const HORIZON_FADE: f64 = 0.5;
+/// The least share of a sample's weight that stands for all of it.
+pub const HORIZON_SHARE: f64 = 0.25;
+
 /// The pointers that a look-up follows, which the octree must then hold.
 pub fn pointer_layout(lookup: Lookup) -> Option<PointerLayout> {
     match lookup {

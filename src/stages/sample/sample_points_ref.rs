@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, IVec3};
 
-use super::LEAST_THROUGH;
+use super::{HORIZON_CELLS, HORIZON_FADE, HORIZON_SHARE, LEAST_THROUGH};
 use crate::settings::Sampling;
 
 /// What a node holds.
@@ -33,6 +33,24 @@ pub struct Sampled {
 impl Sampled {
     fn plus(self, weight: f64, other: Self) -> Self {
         Self { radiance: self.radiance + weight * other.radiance, alpha: self.alpha + weight * other.alpha }
+    }
+}
+
+/// The plane of a surface, below which nodes do not count for what is seen from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Horizon {
+    pub position: DVec3,
+    /// Unit length.
+    pub face: DVec3,
+}
+
+impl Horizon {
+    /// The part for which a node of some width counts: by the height of its lowest corner.
+    fn part(&self, node: IVec3, width: f64) -> f64 {
+        let corners = (0..8).map(|i| (node + IVec3::new(i & 1, i >> 1 & 1, i >> 2)).as_dvec3() * width);
+        let height = |corner: DVec3| (corner - self.position).dot(self.face) - HORIZON_CELLS;
+        let lowest = corners.map(height).fold(f64::INFINITY, f64::min);
+        (lowest / (HORIZON_FADE * width)).clamp(0.0, 1.0)
     }
 }
 
@@ -69,35 +87,66 @@ impl LitNodes {
     }
 
     pub fn trilinear(&self, level: u32, p: DVec3, direction: DVec3) -> Sampled {
+        self.above(None, level, p, direction)
+    }
+
+    /// Trilinear over the nodes above a horizon: the weight of those that count makes up for that of the others.
+    fn above(&self, horizon: Option<&Horizon>, level: u32, p: DVec3, direction: DVec3) -> Sampled {
+        let width = self.width_cells(level);
         // Node centres lie at ½.
-        let lattice = p / self.width_cells(level) - 0.5;
+        let lattice = p / width - 0.5;
         let base = lattice.floor();
         let f = lattice - base;
         let corners = (0..8).map(|corner| IVec3::new(corner & 1, corner >> 1 & 1, corner >> 2));
-        corners.fold(Sampled::default(), |sum, offset| {
-            let weight = (0..3).map(|axis| if offset[axis] == 1 { f[axis] } else { 1.0 - f[axis] }).product();
-            sum.plus(weight, self.seen(level, base.as_ivec3() + offset, direction))
-        })
+        let (sum, share) = corners.fold((Sampled::default(), 0.0), |(sum, share), offset| {
+            let node = base.as_ivec3() + offset;
+            let weight: f64 = (0..3).map(|axis| if offset[axis] == 1 { f[axis] } else { 1.0 - f[axis] }).product();
+            let counts = weight * horizon.map_or(1.0, |horizon| horizon.part(node, width));
+            (sum.plus(counts, self.seen(level, node, direction)), share + counts)
+        });
+        if horizon.is_some() { made_up(sum, share) } else { sum }
     }
 
     pub fn quadrilinear(&self, width_cells: f64, p: DVec3, direction: DVec3) -> Sampled {
+        self.quadrilinear_above(None, width_cells, p, direction)
+    }
+
+    fn quadrilinear_above(&self, horizon: Option<&Horizon>, width_cells: f64, p: DVec3, direction: DVec3) -> Sampled {
         let rise = width_cells.max(1.0).log2().min(self.depth.into());
         let (fine, coarse) = (self.depth - rise.floor() as u32, self.depth - rise.ceil() as u32);
         let blend = rise.fract();
         Sampled::default()
-            .plus(1.0 - blend, self.trilinear(fine, p, direction))
-            .plus(blend, self.trilinear(coarse, p, direction))
+            .plus(1.0 - blend, self.above(horizon, fine, p, direction))
+            .plus(blend, self.above(horizon, coarse, p, direction))
     }
 
-    /// What a cone of that width sees: without quadrilinear sampling, in the level of the nearest width.
-    pub fn at_width(&self, sampling: Sampling, width_cells: f64, p: DVec3, direction: DVec3) -> Sampled {
+    /// What a cone of that width sees from a surface: without quadrilinear sampling, in the level of the nearest
+    /// width.
+    pub fn at_width(
+        &self,
+        (sampling, horizon): (Sampling, Option<&Horizon>),
+        width_cells: f64,
+        p: DVec3,
+        direction: DVec3,
+    ) -> Sampled {
         let level = self.depth - (width_cells.max(1.0).log2().round() as u32).min(self.depth);
         match sampling {
-            Sampling::Nearest => self.nearest(level, p, direction),
-            Sampling::Trilinear => self.trilinear(level, p, direction),
-            Sampling::Quadrilinear => self.quadrilinear(width_cells, p, direction),
+            Sampling::Nearest => {
+                let seen = self.nearest(level, p, direction);
+                let node = (p / self.width_cells(level)).floor().as_ivec3();
+                horizon.map_or(seen, |horizon| {
+                    let part = horizon.part(node, self.width_cells(level));
+                    made_up(Sampled::default().plus(part, seen), part)
+                })
+            }
+            Sampling::Trilinear => self.above(horizon, level, p, direction),
+            Sampling::Quadrilinear => self.quadrilinear_above(horizon, width_cells, p, direction),
         }
     }
+}
+
+fn made_up(sum: Sampled, share: f64) -> Sampled {
+    Sampled::default().plus(1.0 / share.max(HORIZON_SHARE), sum)
 }
 
 #[cfg(test)]
