@@ -40,6 +40,8 @@ pub struct SurfacesOnGpu {
     pub glossy_list: Option<TileList>,
     pub glossy_count: u32,
     pub shown: Slot,
+    /// In place of light that was not traced.
+    pub nothing: Slot,
     pub sums: Slot,
     /// Of what is shown; `None` where nothing shines.
     pub mean_luminance: Option<f64>,
@@ -144,6 +146,7 @@ impl Engine {
     /// What the view asks for, in linear light.
     pub(super) fn record_composed(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
         let shown = self.surfaces.shown.ensure(&self.gpu, "shown light", Self::pixel_bytes(wanted.size_px))?;
+        self.surfaces.nothing.ensure(&self.gpu, "no light", RADIANCE_BYTES)?;
         self.composed(wanted, wanted.settings.look.surface, &shown)
     }
 
@@ -162,7 +165,12 @@ impl Engine {
         let direct = made(&self.surfaces.direct, self.done.direct.is_some());
         let diffuse = made(&self.surfaces.diffuse, self.done.diffuse.is_some());
         let specular = made(&self.surfaces.specular, self.done.specular.is_some() && asked.specular.is_ok());
-        let terms = Terms { direct: direct.as_ref(), diffuse: diffuse.as_ref(), specular: specular.as_ref() };
+        let terms = Terms {
+            direct: direct.as_ref(),
+            diffuse: diffuse.as_ref(),
+            specular: specular.as_ref(),
+            nothing: &self.surfaces.nothing.made("no light")?,
+        };
         compose::record(&self.gpu, &mut frame, self.surface_image()?, (&view, &params), (surface, terms), shown);
         Ok(frame)
     }

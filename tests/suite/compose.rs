@@ -134,7 +134,7 @@ fn what_was_not_traced_is_black() {
     let gpu = gpu();
     let rig = rig(gpu);
     let direct = upload(gpu, &rig.lights, |light| (light.direct, 1.0));
-    let terms = Terms { direct: Some(&direct), diffuse: None, specular: None };
+    let terms = Terms { direct: Some(&direct), diffuse: None, specular: None, nothing: &direct };
     for surface in [SurfaceView::Diffuse, SurfaceView::Specular, SurfaceView::Irradiance] {
         assert!(rig.composed(gpu, surface, terms).iter().all(|pixel| pixel[..3] == [0.0; 3]), "{surface:?}");
     }

@@ -43,6 +43,8 @@ pub struct Terms<'a> {
     /// Mean radiance of the hemisphere and its open share.
     pub diffuse: Option<&'a GpuBuffer>,
     pub specular: Option<&'a GpuBuffer>,
+    /// Stands in for what is not there; nothing of it is read.
+    pub nothing: &'a GpuBuffer,
 }
 
 /// Writes `shown`, [`RADIANCE_BYTES`] a pixel. A term that is shown must be there.
@@ -60,23 +62,19 @@ pub fn record(
         ("DIFFUSE", flag(terms.diffuse.is_some())),
         ("SPECULAR", flag(terms.specular.is_some())),
     ];
-    // A buffer that no term reads is bound in place of one that is not there.
-    let nothing = terms.direct.or(terms.diffuse).or(terms.specular);
     let pixels = u64::from(view.width_px) * u64::from(view.height_px);
-    let mut pass = frame
+    frame
         .pass(&gpu.kernel("surface/compose.wgsl", &constants))
         .uniform("view", view)
         .uniform("params", params)
         .texture("surface_near", surfaces.near.view())
         .texture("surface_stuff", surfaces.stuff.view())
+        .bind("direct", terms.direct.unwrap_or(terms.nothing))
+        .bind("diffuse", terms.diffuse.unwrap_or(terms.nothing))
+        .bind("specular", terms.specular.unwrap_or(terms.nothing))
         .bind("shown", shown)
-        .bytes_moved(pixels * 4 * RADIANCE_BYTES);
-    for (name, term) in [("direct", terms.direct), ("diffuse", terms.diffuse), ("specular", terms.specular)] {
-        if let Some(buffer) = term.or(nothing) {
-            pass = pass.bind(name, buffer);
-        }
-    }
-    pass.dispatch(pixels);
+        .bytes_moved(pixels * 4 * RADIANCE_BYTES)
+        .dispatch(pixels);
 }
 
 pub fn term_number(shown_as: SurfaceView) -> u32 {
