@@ -47,12 +47,10 @@ fn node_width(level: u32) -> f32 {
     return f32(1u << (octree.depth - level));
 }
 
-// What one node holds. Leaves are alike along all axes.
+// What a node holds that is there. Leaves are alike along all axes.
 fn light_at(entry: u32, direction: vec3<f32>, width: f32) -> vec4<f32> {
-    // Without a branch, which costs more than a look at some node.
-    let is_there = entry != NO_BLOCK;
-    let stored = select(vec4<f32>(0.0), light[select(0u, entry, is_there)], is_there);
-    if !DIRECTIONAL || !is_there || entry >= octree.inner_node_count || stored.w == 0.0 {
+    let stored = light[entry];
+    if !DIRECTIONAL || entry >= octree.inner_node_count || stored.w == 0.0 {
         return stored;
     }
     let axes = light[octree.inner_node_count + octree.leaf_count + entry].xyz;
@@ -69,7 +67,11 @@ fn sample_nearest(level: u32, p: vec3<f32>, direction: vec3<f32>) -> vec4<f32> {
     if !(all(node >= vec3<f32>(0.0)) && all(node < vec3<f32>(f32(1u << level)))) {
         return vec4<f32>(0.0);
     }
-    let seen = light_at(entry_of(level, vec3<i32>(node)), direction, width);
+    let entry = entry_of(level, vec3<i32>(node));
+    if entry == NO_BLOCK {
+        return vec4<f32>(0.0);
+    }
+    let seen = light_at(entry, direction, width);
     if !HORIZON {
         return seen;
     }
@@ -111,7 +113,10 @@ fn corner_weights(f: vec3<f32>) -> array<f32, 8> {
 fn weighted_light(corners: Corners, weights: array<f32, 8>, direction: vec3<f32>, width: f32) -> vec4<f32> {
     var sum = vec4<f32>(0.0);
     for (var j = 0u; j < 8u; j += 1u) {
-        sum += weights[j] * light_at(corners.entries[j], direction, width);
+        // Many corners are empty, or below the horizon: a branch costs less than a look at memory.
+        if weights[j] > 0.0 && corners.entries[j] != NO_BLOCK {
+            sum += weights[j] * light_at(corners.entries[j], direction, width);
+        }
     }
     return sum;
 }

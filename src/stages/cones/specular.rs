@@ -22,7 +22,7 @@ use crate::stages::sample::Sampler;
 pub const NARROWEST_DEGREES: f64 = 1.0;
 pub const WIDEST_DEGREES: f64 = 30.0;
 /// Tangents of half of them.
-pub const NARROWEST_TANGENT: f64 = 0.008_726_867_790_758_789;
+pub const NARROWEST_TANGENT: f64 = 0.008_726_867_790_758_79;
 pub const WIDEST_TANGENT: f64 = 0.267_949_192_431_122_7;
 
 /// Mirror of `SpecularParams` in shaders/cones/specular.wgsl.
