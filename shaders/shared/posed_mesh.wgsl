@@ -4,15 +4,13 @@
 
 struct MeshVertex {
     position: vec3<f32>,
-    // Packed.
-    normal: u32,
-    // TEXCOORD_0 and TEXCOORD_1.
-    tex_coords: vec4<f32>,
     // Linear, 8 bits each.
     color: u32,
+    normal: vec3<f32>,
     // Packed, and LEFT_HANDED.
     tangent: u32,
-    pad: vec2<u32>,
+    // TEXCOORD_0 and TEXCOORD_1.
+    tex_coords: vec4<f32>,
 }
 
 struct VertexJoints {

@@ -56,7 +56,7 @@ fn unit(v: vec3<f32>) -> vec3<f32> {
 fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
     let position = moved_position(v.position, m);
     // Scaled once more, so that no cofactor of a small object vanishes in interpolation.
-    let normal = unit(moved_normal(unpack_normal(v.normal), m));
+    let normal = unit(moved_normal(v.normal, m));
     let handed = select(1.0, -1.0, ((v.tangent & LEFT_HANDED) != 0u) != is_mirrored(m));
     let tangent = vec4<f32>(unit(moved_direction(unpack_normal(v.tangent), m)), handed);
     let clip = surface.clip_from_camera * vec4<f32>(position, 1.0);

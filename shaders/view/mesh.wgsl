@@ -1,7 +1,6 @@
 // Draws posed triangles with the camera, light and colours of the voxels. In: vertices by number, a
 // matrix an object or joint. Out: as march. Entry points `rigid` and `skinned` differ in how a
 // vertex moves; the second exists only where a scene has skins.
-#import shared/packing.wgsl
 #import shared/view.wgsl
 #import shared/posed_vertex.wgsl
 
@@ -37,7 +36,7 @@ struct Pixel {
 
 fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
     let position = moved_position(v.position, m);
-    let normal = moved_normal(unpack_normal(v.normal), m);
+    let normal = moved_normal(v.normal, m);
     // Scaled once more, so that no cofactor of a small object vanishes in interpolation.
     let unit = normal * inverseSqrt(max(dot(normal, normal), 1e-37));
     let uv = slot_uv(draw.base_color_slot, v.tex_coords);

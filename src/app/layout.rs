@@ -86,6 +86,7 @@ impl App {
             loading: self.loader.progress(),
             frame: self.stage.working(),
             exact: self.exact.fraction(),
+            paths: self.desk.reference.fraction(),
             adapter: &self.stage.engine.gpu().info.name,
         };
         panels::top_bar::ui(ui, &bar, &mut self.desk.unfolded)

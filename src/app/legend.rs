@@ -137,6 +137,9 @@ pub fn differences(painter: &Painter, view: Rect, part: SurfaceView, most: f64) 
     let corner = view.left_top() + vec2(12.0, 12.0);
     let unit = if part.is_light() { "nits" } else { "of 1" };
     let name = format!("cones less paths, luminance, {unit}");
+    // The map is as bright as the text.
+    let ground = Rect::from_min_size(corner, vec2(SCALE_WIDTH, 44.0)).expand(8.0);
+    painter.rect_filled(ground, 3.0, Color32::from_black_alpha(200));
     scale(painter, corner, &name, &ticks([-most, most], false), |part| difference_color(2.0 * part - 1.0));
 }
 

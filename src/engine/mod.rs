@@ -52,6 +52,7 @@ pub use read_voxels::WorldVoxels;
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 use run::{Comparison, FrameTimings, Running};
 use scene_on_gpu::SceneOnGpu;
+use surface_steps::SurfaceTimings;
 use surfaces::SurfacesOnGpu;
 use wanted::{Done, Wanted};
 
@@ -230,6 +231,7 @@ impl Engine {
 
     /// Forgets the surface image and all that is made from it.
     pub fn invalidate_surfaces(&mut self) {
+        self.timings.surfaces = SurfaceTimings::default();
         self.done.surfaces = None;
         self.done.direct = None;
         self.done.diffuse = None;

@@ -84,7 +84,11 @@ impl Engine {
     /// Neighbour pointers that the settings follow or show.
     pub(super) fn wanted_pointers(&self, wanted: &Wanted) -> Vec<PointerLayout> {
         let look = &wanted.settings.look;
-        let followed = if look.view == View::Slice { sample::pointer_layout(look.slice.lookup) } else { None };
+        let followed = match look.view {
+            View::Slice => sample::pointer_layout(look.slice.lookup),
+            View::Surfaces => sample::pointer_layout(wanted.settings.cone_tracing.lookup),
+            View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => None,
+        };
         let shown = look.pointers.then_some(PointerLayout::Blocks);
         [followed, shown.filter(|shown| followed != Some(*shown))].into_iter().flatten().collect()
     }

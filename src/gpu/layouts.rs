@@ -146,7 +146,7 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(Palette, "shared/view.wgsl", "Palette", colors),
     mirror!(GhostColors, "view/ghost.wgsl", "GhostColors", both, holes, spill),
     mirror!(MeshParams, "view/mesh.wgsl", "MeshParams", clip_from_camera, world_from_camera),
-    mirror!(MeshVertex, "shared/posed_mesh.wgsl", "MeshVertex", position, normal, tex_coords, color, tangent, pad,),
+    mirror!(MeshVertex, "shared/posed_mesh.wgsl", "MeshVertex", position, color, normal, tangent, tex_coords),
     mirror!(
         SurfaceParams,
         "surface/draw.wgsl",

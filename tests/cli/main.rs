@@ -6,12 +6,14 @@ mod defects;
 mod files;
 mod hidden;
 mod lights;
+mod lit_surfaces;
 mod models;
 mod node;
 mod pictures;
 mod reference;
 mod reports;
 mod scenes;
+mod walls;
 mod wrong_usage;
 
 use std::ffi::{OsStr, OsString};

@@ -3,7 +3,7 @@
 use octolume::plan::Pass;
 use octolume::scene::{Light, LightKind, Material, Node, OrbitCamera, Scene, Trs};
 use octolume::settings::lighting::{LightEdit, SunShines};
-use octolume::settings::{Settings, SurfaceView, View};
+use octolume::settings::{Lookup, Settings, SurfaceView, View};
 
 use crate::plan::{Counted, running};
 use crate::scenes::{cube_scene, node};
@@ -109,4 +109,16 @@ fn whole_resolution_makes_no_target_to_upsample() {
     counted.settings.cone_tracing.pattern_px = 1;
     assert_eq!(traced(&mut counted), [Pass::TraceDiffuse]);
     assert!(labels(&counted).iter().all(|label| label != "diffuse light" && label != "blurred cones"));
+}
+
+#[test]
+fn cones_that_hop_by_pointers_find_them_linked() {
+    let mut counted = counted(1.0, true);
+    counted.frame();
+    let by_ranks = counted.engine.read_surfaces().expect("readable");
+    for lookup in [Lookup::BlockPointers, Lookup::NodePointers] {
+        counted.settings.cone_tracing.lookup = lookup;
+        assert!(counted.frame().0.runs(Pass::LinkNodes));
+        assert_eq!(counted.engine.read_surfaces().expect("readable"), by_ranks, "{lookup:?}");
+    }
 }

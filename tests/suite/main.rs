@@ -85,6 +85,7 @@ mod stage_checks;
 mod stage_rig;
 mod surface_image;
 mod surface_rig;
+mod surface_scenes;
 mod tiles;
 mod transform;
 mod transform_scenes;

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Drives the real window by mouse and keyboard on a display of its own: filter, timeline, level,
-# view, scene tree, lights, slice, pointers of a node and screenshot. Photographs every step into FOLDER. Fails if the window does not open, a
-# photo is uniform, or a control that must change the picture does not.
+# view, scene tree, lights, slice, pointers of a node, screenshot, cones, and the path tracer beside them.
+# Photographs every step into FOLDER. Fails if the window does not open, a photo is uniform, or a control that
+# must change the picture does not.
 #
 #   tests/window/drive.sh PROGRAM SCENE FOLDER
 #
@@ -28,6 +29,10 @@ readonly COLOR="145 660" RADIANCE="128 806" VOXELS_BELOW="114 564" SLICE="110 58
 readonly HEIGHT_MIDDLE="155 636" HEIGHT_LOW="110 636"
 # With Timings folded, and the node's section unfolded; its rows are those of a lit node.
 readonly TIMINGS="1107 46" NODE="1107 81" DRAW_POINTERS="1106 105" FIRST_CHILD="1200 283" ABOVE="1200 371"
+# With Light and the node folded too. The divider of the wipe is in the middle at first.
+readonly SURFACES="250 231" CONE_TRACING="15 420" HALF_RESOLUTION="15 709"
+readonly REFERENCE="1107 115" SAMPLES="1197 140" START="1238 140" WIPE="1300 181"
+readonly DIVIDER="692 460" DIVIDER_LEFT="480 460"
 # The picture alone, without the texts over it.
 readonly VIEW=770x740+300+80
 readonly PATIENCE_SECS=120
@@ -167,4 +172,13 @@ shots=("$folder"/octolume-*.png)
 for shot in "${shots[@]}"; do
     (($(identify -format %k "$shot") > 20)) || fail "$shot is uniform"
 done
+
+# The notes about saved files lie over the picture for a while.
+sleep 10
+click "$LIGHT"; click "$NODE"; click "$SURFACES"; photograph_at_rest 35-surfaces; must_change 33-child 35-surfaces
+click "$CONE_TRACING"; click "$HALF_RESOLUTION"; photograph_at_rest 36-full; must_change 35-surfaces 36-full
+click "$HALF_RESOLUTION"; photograph_at_rest 37-half; must_equal 35-surfaces 37-half
+click "$REFERENCE"; enter "$SAMPLES" 1; click "$START"; photograph_at_rest 38-traced; must_equal 37-half 38-traced
+click "$WIPE"; photograph_at_rest 39-wipe; must_change 38-traced 39-wipe
+drag "$DIVIDER" "$DIVIDER_LEFT"; photograph_at_rest 40-wiped; must_change 39-wipe 40-wiped
 echo "drive.sh: all steps done, photos in $folder"

@@ -54,12 +54,13 @@ fn traced_ui(ui: &mut Ui, cones: &mut ConeTracing) {
                 .on_hover_text("Cones all over the hemisphere bring the light of other surfaces and of the sky.");
             ui.checkbox(&mut cones.specular, "Specular")
                 .on_hover_text("One cone where it reflects, as wide as it is rough, where a surface is glossy.");
-            unless(ui, cones.diffuse.then_some("Diffuse cones tell what is occluded already."), |ui| {
-                ui.checkbox(&mut cones.ambient_occlusion, "Occlusion")
-                    .on_hover_text("Without diffuse light: the sky's light, darkened by what is near.");
-            });
         });
         row.response
+    });
+    // A row of its own: a wider panel would push the picture aside.
+    unless(ui, cones.diffuse.then_some("Diffuse cones tell what is occluded already."), |ui| {
+        let tip = "Without diffuse light: the sky's light, darkened by what is near.";
+        control(ui, "", tip, |ui| ui.checkbox(&mut cones.ambient_occlusion, "Occlusion"));
     });
 }
 

@@ -66,10 +66,11 @@ fn run_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, orders: &mut Vec<Order>) {
 }
 
 fn state_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, traced: &Traced) {
-    let error = traced.part(SurfaceView::Final).map_or(0.0, |part| part.relative_error);
-    let text =
-        format!("{} samples, {} s, standard error {} %", traced.samples, short(traced.secs), short(100.0 * error));
-    ui.label(text).on_hover_text("Of a pixel: root mean square over the picture, in parts of its mean luminance.");
+    let error = traced.part(SurfaceView::Final).and_then(|part| part.relative_error);
+    let error = error.map_or(String::new(), |error| format!(", standard error {} %", short(100.0 * error)));
+    let plural = if traced.samples == 1 { "" } else { "s" };
+    ui.label(format!("{} sample{plural}, {} s{error}", traced.samples, short(traced.secs)))
+        .on_hover_text("Of a pixel: root mean square over the picture, in parts of its mean luminance.");
     if !panel.reference.is_of_shown() {
         ui.label(RichText::new("It is of another picture: camera, scene or light have changed.").color(theme::WARNING));
     } else if !panel.is_surfaces {
@@ -109,7 +110,7 @@ fn errors_ui(ui: &mut Ui, traced: &Traced, measured: &[MeasuredPart]) {
             of(|error| error.bias),
             of(|error| error.ssim),
             cell(error.and_then(|error| error.error.flip)),
-            cell(traced.part(part).map(|part| part.relative_error)),
+            cell(traced.part(part).and_then(|part| part.relative_error)),
         ]
     });
     let columns = [("part", 0.0), ("relMSE", 52.0), ("bias", 52.0), ("SSIM", 44.0), ("FLIP", 44.0), ("± paths", 50.0)];

@@ -14,6 +14,8 @@ pub struct TopBar<'a> {
     pub frame: Option<f32>,
     /// How far the exact voxelization is.
     pub exact: Option<f32>,
+    /// How far the path tracer is.
+    pub paths: Option<f32>,
     pub adapter: &'a str,
 }
 
@@ -73,6 +75,9 @@ fn status_ui(ui: &mut Ui, bar: &TopBar<'_>) -> Option<Command> {
         ui.add(ProgressBar::new(fraction).desired_width(80.0).desired_height(6.0));
     } else if let Some(fraction) = bar.exact {
         ui.label(RichText::new("exact voxels").color(theme::ACCENT));
+        ui.add(ProgressBar::new(fraction).desired_width(80.0).desired_height(6.0));
+    } else if let Some(fraction) = bar.paths {
+        ui.label(RichText::new("tracing paths").color(theme::ACCENT));
         ui.add(ProgressBar::new(fraction).desired_width(80.0).desired_height(6.0));
     } else {
         ui.label(RichText::new("ready").color(theme::WEAK));

@@ -92,8 +92,8 @@ fn exposure_ui(ui: &mut Ui, look: &mut Look, factor: f64) {
     let mut stops = look.exposure_stops.unwrap_or(factor.log2());
     let tip = "Light is multiplied by 2 to this before it is shown. Auto: what its mean asks for.";
     control(ui, "Exposure", tip, |ui| {
-        // All of it in one row of the panel.
-        ui.spacing_mut().slider_width = 48.0;
+        // All of it in one row of the panel, however many digits there are.
+        ui.spacing_mut().slider_width = 36.0;
         let slider = slider(&mut stops, Look::EXPOSURE_STOPS).max_decimals(1);
         let response = ui.add_enabled(!automatic, slider);
         ui.checkbox(&mut automatic, "Auto exposure").on_hover_text(tip);

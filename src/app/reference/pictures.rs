@@ -74,7 +74,7 @@ mod tests {
         let shown = Shown { exposure, curve: ToneCurve::Linear };
         let cones = ConePicture { part, size_px: [2, 1], pixels, shown, shows_sky: false };
         let image = vec![[path, path / 2.0, 0.0, 1.0], [0.0; 4]];
-        let traced = Traced { samples: 1, secs: 0.0, parts: vec![TracedPart { part, image, relative_error: 0.0 }] };
+        let traced = Traced { samples: 1, secs: 0.0, parts: vec![TracedPart { part, image, relative_error: None }] };
         draw(&OfPicture { cones: Arc::new(cones), traced: Arc::new(traced) })
     }
 

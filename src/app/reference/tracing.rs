@@ -30,15 +30,16 @@ pub struct TracedPart {
     pub part: SurfaceView,
     /// Rows from the top.
     pub image: Vec<LightPixel>,
-    /// Standard error of a pixel: root mean square over the picture, in parts of its mean luminance.
-    pub relative_error: f64,
+    /// Standard error of a pixel: root mean square over the picture, in parts of its mean luminance. One sample
+    /// alone tells nothing of it.
+    pub relative_error: Option<f64>,
 }
 
 impl Traced {
     fn new(film: &Film, lighting: &Lighting) -> Self {
         let part = |part| {
             let term = Term::of(part, lighting.bounces)?;
-            let relative_error = film.standard_error(term).relative;
+            let relative_error = (film.samples() > 1).then(|| film.standard_error(term).relative);
             Some(TracedPart { part, image: film.shown(part, lighting)?, relative_error })
         };
         let parts = PARTS.into_iter().filter_map(part).collect();

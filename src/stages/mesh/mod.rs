@@ -23,11 +23,10 @@ pub const LEFT_HANDED: u32 = 1 << 30;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct MeshVertex {
     pub position: [f32; 3],
-    pub normal: u32,
-    pub tex_coords: [f32; 4],
     pub color: u32,
+    pub normal: [f32; 3],
     pub tangent: u32,
-    pub pad: [u32; 2],
+    pub tex_coords: [f32; 4],
 }
 
 /// Mirror of `VertexJoints` in shaders/shared/posed_mesh.wgsl.

@@ -12,11 +12,10 @@ pub(super) fn mesh_vertex(primitive: &Primitive, vertex: usize) -> MeshVertex {
     let color = primitive.colors.get(vertex).copied().unwrap_or(Vec4::ONE);
     MeshVertex {
         position: primitive.positions[vertex].to_array(),
-        normal: pack_normal(primitive.normals.get(vertex).copied().unwrap_or(Vec3::ZERO).as_dvec3()),
-        tex_coords: [first.x, first.y, second.x, second.y],
         color: pack_rgba8(color.to_array().map(f64::from)),
+        normal: primitive.normals.get(vertex).copied().unwrap_or(Vec3::ZERO).to_array(),
         tangent: primitive.tangents.get(vertex).copied().map_or(0, pack_tangent),
-        pad: [0; 2],
+        tex_coords: [first.x, first.y, second.x, second.y],
     }
 }
 

@@ -32,9 +32,9 @@ pub const DIELECTRIC_REFLECTANCE: f64 = 0.04;
 pub const LEAST_ROUGHNESS: f64 = 0.045;
 /// Cosine of a shading normal to the eye, which sees the surface after all.
 pub const LEAST_EYE_COSINE: f64 = 0.01;
-/// Of a shadow map, nothing lower above a surface hides it: a quarter of a texel, so that the facets of a
+/// Of a shadow map, nothing lower above a surface hides it: half a texel, so that the facets of a
 /// hollow do not shade one another along their edges, and what f32 distances of 1024 cells are off by.
-pub const SHADOW_HEIGHT_TEXELS: f64 = 0.25;
+pub const SHADOW_HEIGHT_TEXELS: f64 = 0.5;
 pub const SHADOW_HEIGHT_CELLS: f64 = 1.0 / 512.0;
 
 /// What the camera sees, and where the light that reaches it is summed.

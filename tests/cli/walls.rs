@@ -1,5 +1,5 @@
-//! KayKit's Knight in a room of coloured walls, written to a folder: floor glossy, left wall red, right wall
-//! green, open towards the camera.
+//! Scenes of walls, written to a folder: a white plane, and KayKit's Knight in a room whose floor is glossy,
+//! left wall red and right wall green, open towards the camera.
 
 use std::path::{Path, PathBuf};
 
@@ -23,8 +23,21 @@ fn walls() -> [Wall; 5] {
     ]
 }
 
+/// Two units wide, around the origin, facing up; reflects all light, as rough as can be.
+pub fn white_plane(folder: &Path) -> PathBuf {
+    let corners = [[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]];
+    let mut document = json!({
+        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [] }],
+        "nodes": [], "meshes": [], "materials": [], "accessors": [], "bufferViews": [], "buffers": [],
+    });
+    add_wall(&mut document, 0, &(corners, [0.0, 1.0, 0.0], ([1.0; 3], 1.0)));
+    let file = folder.join("plane.gltf");
+    std::fs::write(&file, document.to_string()).expect("writable");
+    file
+}
+
 /// Writes the scene below `folder`; `None` where there is no Knight.
-pub fn write(folder: &Path) -> Option<PathBuf> {
+pub fn knight_in_a_room(folder: &Path) -> Option<PathBuf> {
     let knight = std::fs::read(crate::corpus::shared_gltf()?.join("KayKit-Knight/Knight.glb")).ok()?;
     let (json, binary) = chunks(&knight);
     let mut document: Value = serde_json::from_slice(json).expect("JSON");
@@ -74,8 +87,7 @@ fn add_wall(document: &mut Value, number: usize, (corners, normal, (color, rough
     let normal = accessor(48, 48, vectors);
     let indices = accessor(96, 12, json!({ "componentType": 5123, "count": 6, "type": "SCALAR" }));
     let [r, g, b] = color;
-    let surface =
-        json!({ "baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": roughness });
+    let surface = json!({ "baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": roughness });
     let material = push(document, "materials", json!({ "name": "wall", "pbrMetallicRoughness": surface }));
     let attributes = json!({ "POSITION": position, "NORMAL": normal });
     let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });

@@ -1,0 +1,166 @@
+//! The surface image and direct light of real scenes beside rays: what the path tracer's camera rays meet,
+//! and its direct light, which share no code with the shaders.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use octolume::accuracy::path_tracer::{Options, PixelSampling, Reflection, Scene as PathScene, Term};
+use octolume::accuracy::posed_triangles::{PosedTriangles, SurfacePoint};
+use octolume::accuracy::ray_tree::Segment;
+use octolume::data::surface_image::SurfaceTexel;
+use octolume::lights::{emits, posed_lights};
+use octolume::prepare::{Prepared, prepare};
+use octolume::progress::Progress;
+use octolume::scene::{self, AlphaMode, Material, OrbitCamera};
+use octolume::settings::lighting::SunShines;
+use octolume::settings::{Hidden, Settings};
+use octolume::stages::surface::LEAST_EYE_COSINE;
+
+use crate::loading::shared_gltf;
+use crate::surface_rig::{Hiding, Shot, is_there};
+
+const SIZE_PX: [u32; 2] = [160, 90];
+
+/// A file below the folder of real scenes, and where it is seen from if not from its own camera.
+struct RealScene {
+    file: &'static str,
+    from: Option<[DVec3; 2]>,
+}
+
+fn real_scenes() -> [RealScene; 3] {
+    let nave = [DVec3::new(4.0, 1.5, 0.0), DVec3::new(0.0, 1.5, 3.0)];
+    [
+        RealScene { file: "CornellBox/CornellBox.glb", from: None },
+        RealScene {
+            file: "KayKit-Knight/Knight.glb",
+            from: Some([DVec3::new(0.8, 1.8, 2.2), DVec3::new(0.0, 1.1, 0.0)]),
+        },
+        RealScene { file: "Sponza/Sponza.gltf", from: Some(nave) },
+    ]
+}
+
+impl RealScene {
+    /// `None`: it is not there.
+    fn opened(&self) -> Option<(Prepared, Settings)> {
+        let scene = scene::load::open(&shared_gltf()?.join(self.file), &Progress::default()).expect("a scene");
+        let mut settings = Settings::default();
+        settings.discretization.grid = 64;
+        settings.look.camera = self.from.map(|[eye, target]| OrbitCamera { eye, target, fov_y_degrees: 60.0 });
+        let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default());
+        Some((prepared.expect("fits"), settings))
+    }
+}
+
+fn shot<'a>(prepared: &'a Prepared, settings: &Settings) -> Shot<'a> {
+    let pose = prepared.pose(&settings.motion).expect("a pose");
+    let camera = prepared.camera(settings, &pose, SIZE_PX);
+    Shot { pose, ..Shot::new(&prepared.scene, camera, prepared.grid, SIZE_PX) }
+}
+
+fn material<'a>(prepared: &'a Prepared, posed: &PosedTriangles<'_>, triangle: usize) -> Option<&'a Material> {
+    let surface = &posed.surfaces()[posed.tree().triangles()[triangle].surface as usize];
+    let mesh = prepared.objects[surface.object].object.mesh;
+    prepared.scene.materials.get(prepared.scene.meshes[mesh].primitives[surface.primitive].material?)
+}
+
+/// How many texels were compared, and how many of them are not what the ray through the pixel's middle meets.
+#[derive(Debug, Default)]
+struct Agreement {
+    texels: usize,
+    /// By more than 1e-4 of the distance.
+    elsewhere: usize,
+    /// Normals of the triangle or of its vertices by more than their 16 bits an axis and f32 explain.
+    turned: usize,
+    albedos: usize,
+}
+
+fn agreement(prepared: &Prepared, shot: &Shot<'_>, posed: &PosedTriangles<'_>) -> Agreement {
+    let mut found = Agreement::default();
+    for (pixel, texel) in shot.drawn().texels.iter().enumerate() {
+        let ray = shot.rays().ray(shot.middle(pixel));
+        let from = ray.origin - ray.direction * ray.start_cells;
+        let segment = Segment { from, direction: ray.direction, length: f64::INFINITY };
+        let Some(met) = posed.tree().nearest(segment, |_, _| true) else { continue };
+        let material = material(prepared, posed, met.triangle);
+        // What cut-outs and thin surfaces let through is filtered here and not there.
+        if !is_there(texel) || material.is_some_and(|material| material.alpha_mode != AlphaMode::Opaque) {
+            continue;
+        }
+        found.texels += 1;
+        if (f64::from(texel.distance_cells) - met.distance).abs() > 1e-4 * met.distance {
+            found.elsewhere += 1;
+            continue;
+        }
+        let point = posed.point(met.triangle, met.place).expect("has area");
+        let is_smooth = material.is_none_or(|material| material.normal_texture.is_none());
+        found.turned += usize::from(is_turned(texel, &point, ray.direction, is_smooth));
+        if let Some(material) = material.filter(|material| material.base_color_texture.is_none()) {
+            let expected = DVec3::from_slice(&material.base_color.map(f64::from));
+            let apart = (DVec3::from_array(texel.albedo) - expected).abs().max_element();
+            assert!(apart < 1.0 / 255.0, "{:?} is not {expected} at {:?}", texel.albedo, point.position);
+            found.albedos += 1;
+        }
+    }
+    found
+}
+
+/// `is_smooth`: no normal map turns the normal.
+fn is_turned(texel: &SurfaceTexel, point: &SurfacePoint, direction: DVec3, is_smooth: bool) -> bool {
+    let towards = |n: DVec3, side: DVec3| if n.dot(side) < 0.0 { -n } else { n };
+    let face = towards(point.face, -direction);
+    let smooth = towards(point.shading, face);
+    let is_bent = -smooth.dot(direction) < LEAST_EYE_COSINE;
+    texel.face.distance(face) > 1e-3 || is_smooth && !is_bent && texel.normal.distance(smooth) > 1e-3
+}
+
+#[test]
+fn real_scenes_are_where_rays_meet_them() {
+    for real in real_scenes() {
+        let Some((prepared, settings)) = real.opened() else { continue };
+        let shot = shot(&prepared, &settings);
+        let posed = PosedTriangles::new(&prepared, &settings.motion, &Hidden::default()).expect("a pose");
+        let found = agreement(&prepared, &shot, &posed);
+        // Triangles are drawn from corners at 1/256 of a pixel: at an edge a ray may meet the neighbour.
+        assert!(found.texels > 2000, "{}: {found:?}", real.file);
+        assert!(found.elsewhere.max(found.turned) * 100 < found.texels, "{}: {found:?}", real.file);
+    }
+}
+
+/// The sun shines on all of them.
+#[test]
+fn direct_light_of_real_scenes_is_the_path_tracers() {
+    for real in real_scenes() {
+        let Some((prepared, mut settings)) = real.opened() else { continue };
+        settings.lighting.sun.shines = SunShines::Always;
+        let found = drawn_light(&prepared, &settings);
+        let truth = traced_light(&prepared, &settings);
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        let is_apart = |(a, b): (&f64, &f64)| (a - b).abs() > 0.02 * (b + mean(&truth));
+        let apart = found.iter().zip(&truth).filter(|pair| is_apart(*pair)).count();
+        let off = mean(&found) / mean(&truth) - 1.0;
+        // Edges of shadows are as wide as texels of the map, and textures are filtered.
+        let what = format!("{}: {apart} pixels apart, {off} of the mean", real.file);
+        println!("{what}");
+        assert!(apart * 20 < truth.len() && off.abs() < 0.025, "{what}");
+    }
+}
+
+/// Green of every pixel, nits.
+fn drawn_light(prepared: &Prepared, settings: &Settings) -> Vec<f64> {
+    let shot = shot(prepared, settings);
+    let shown = settings.visibility.shown_nodes(&prepared.scene).expect("all");
+    let emits = emits(prepared, &settings.lighting);
+    let lights = posed_lights(&prepared.scene, &shot.pose, &settings.lighting, &shown, emits);
+    let found = shot.lit(&shot.drawn(), &lights, &Hiding::Map(1024));
+    found.iter().map(|rgb| f64::from(rgb[1])).collect()
+}
+
+fn traced_light(prepared: &Prepared, settings: &Settings) -> Vec<f64> {
+    let (pixel, reflection) = (PixelSampling::Centre, Reflection::MetallicRoughness);
+    let options = Options { size_px: SIZE_PX, seed: 1, pixel, reflection };
+    let traced = PathScene::new(prepared, settings, options).expect("a pose");
+    let mut film = traced.new_film();
+    // Lights are not chosen by chance at what the camera sees: one sample has all of them.
+    traced.trace(&mut film, 1, &Progress::default()).expect("not cancelled");
+    film.image(Term::Direct).iter().map(|rgb| f64::from(rgb[1])).collect()
+}
