@@ -107,7 +107,9 @@ impl RenderingOptions {
             let kernels_ms = measure(session, &settings, size_px, case.runs)?;
             for (part, kernels) in terms {
                 let belongs = |kernel: &str| kernels.iter().any(|start| kernel.starts_with(start));
-                let cones_ms = kernels_ms.iter().filter(|(kernel, _)| belongs(kernel)).map(|(_, ms)| ms).sum();
+                let of_term = kernels_ms.iter().filter(|(kernel, _)| belongs(kernel)).map(|(_, ms)| ms);
+                // The sum of no numbers would be −0.
+                let cones_ms = of_term.fold(0.0, |sum, ms| sum + ms);
                 let Some(cones) = session.engine.read_surface_part(*part)? else { continue };
                 let truth = film.shown(*part, &settings.lighting).context("paths show every term")?;
                 let shown = Shown::new(&settings.look, *part, &truth);
