@@ -9,8 +9,6 @@ use super::{choice, control, list, nothing, number, slider, unless};
 use crate::app::commands::Command;
 use crate::settings::{ConeTracing, Look, SurfaceView, View};
 
-/// Without a distance, occlusion reaches over this part of the grid.
-pub const OCCLUSION_GRID_PART: f64 = 1.0 / 8.0;
 const NO_CONES: &str = "No cone is traced.";
 const NO_DIFFUSE: &str = "No diffuse cone is traced.";
 
