@@ -84,7 +84,8 @@ impl Rig {
         let direct = upload(gpu, &self.lights, |light| (light.direct, 1.0));
         let diffuse = upload(gpu, &self.lights, |light| (light.mean, light.open_share));
         let specular = upload(gpu, &self.lights, |light| (light.specular, 1.0));
-        let terms = Terms { direct: Some(&direct), diffuse: Some(&diffuse), specular: Some(&specular) };
+        let terms =
+            Terms { direct: Some(&direct), diffuse: Some(&diffuse), specular: Some(&specular), nothing: &direct };
         self.composed(gpu, surface, terms)
     }
 
