@@ -58,7 +58,8 @@ fn traced_ui(ui: &mut Ui, cones: &mut ConeTracing) {
     // A row of its own: a wider panel would push the picture aside.
     unless(ui, cones.diffuse.then_some("Diffuse cones tell what is occluded already."), |ui| {
         let tip = "Without diffuse light: the sky's light, darkened by what is near.";
-        control(ui, "", tip, |ui| ui.checkbox(&mut cones.ambient_occlusion, "Occlusion"));
+        // Named by itself, not by the empty name of its row.
+        control(ui, "", tip, |ui| ui.horizontal(|ui| ui.checkbox(&mut cones.ambient_occlusion, "Occlusion")).response);
     });
 }
 
