@@ -70,8 +70,7 @@ fn rig(gpu: &Gpu) -> Rig {
 }
 
 fn upload(gpu: &Gpu, lights: &[Light], value: impl Fn(&Light) -> (DVec3, f64)) -> GpuBuffer {
-    let pixels: Vec<[f32; 4]> =
-        lights.iter().map(|light| value(light)).map(|(rgb, a)| rgb.extend(a).as_vec4().to_array()).collect();
+    let pixels: Vec<[f32; 4]> = lights.iter().map(value).map(|(rgb, a)| rgb.extend(a).as_vec4().to_array()).collect();
     gpu.upload("a term", &pixels).expect("small")
 }
 
@@ -146,9 +145,9 @@ fn the_mean_luminance_is_geometric_and_counts_what_shines() {
     let gpu = gpu();
     let mut pixels = vec![[0.0, 0.0, 0.0, 1.0]; 5000];
     pixels.extend([[7.0, 7.0, 7.0, 0.0]; 99]);
-    for i in 0..3000 {
+    for (i, pixel) in pixels.iter_mut().take(3000).enumerate() {
         let gray = if i % 2 == 0 { 0.5 } else { 8.0 };
-        pixels[i] = [gray, gray, gray, 1.0];
+        *pixel = [gray, gray, gray, 1.0];
     }
     let mean = |pixels: &[[f32; 4]]| {
         let (shown, sums) = (gpu.upload("shown", pixels).expect("small"), buffer(gpu, SUM_BYTES));

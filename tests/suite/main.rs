@@ -14,6 +14,7 @@ mod averaging;
 mod brdf;
 mod builtin;
 mod camera;
+mod character_motion;
 mod compose;
 mod cone_filter;
 mod cone_forms;
