@@ -1,9 +1,9 @@
 //! Octolume: see how a dynamic scene becomes voxels, and what their accuracy costs.
 //!
 //! ```text
-//! glTF file ──► Scene ──► VoxelCache ──► VoxelPages ──► Octree ──► light ──► view
-//!         scene::load  stages::voxelize  ::transform  ::build   ::light   ::view
-//!                     (once per object)  (per frame)  ::fill    ::sample
+//! glTF file ──► Scene ──► VoxelCache ──► VoxelPages ──► Octree ──► light ──► cones ──► view
+//!         scene::load  stages::voxelize  ::transform  ::build   ::light   ::surface ::view
+//!                     (once per object)  (per frame)  ::fill    ::sample  ::cones
 //!                                                     ::averaging
 //! ```
 //!

@@ -14,8 +14,7 @@ use super::panels::view::ViewPanel;
 use super::panels::{self, section};
 use super::{App, shortcuts, theme};
 use crate::lights::{self, Shines};
-use crate::settings::View;
-use crate::stages::cones::diffuse::OCCLUSION_GRID_PART;
+use crate::settings::{ConeTracing, View};
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
@@ -155,7 +154,7 @@ impl App {
         let panel = ConesPanel {
             cones: &settings.cone_tracing,
             look: &settings.look,
-            occlusion_distance: extent * OCCLUSION_GRID_PART,
+            occlusion_distance: extent * ConeTracing::OCCLUSION_GRID_PART,
         };
         panels::cones::ui(ui, panel)
     }

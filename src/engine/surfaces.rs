@@ -11,6 +11,7 @@ use crate::scene::OrbitCamera;
 use crate::settings::lighting::Shadows;
 use crate::settings::{ColorBy, SurfaceView};
 use crate::stages::cones::glossy_tiles::{TileBuffers, TileList};
+use crate::stages::cones::image_bytes;
 use crate::stages::light::illuminate::LightParams;
 use crate::stages::mesh::PosedMesh;
 use crate::stages::surface::compose::{self, ComposeParams, Terms};
@@ -108,7 +109,7 @@ impl Engine {
         let mut frame = Recorder::default();
         let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
         let lighting = &wanted.settings.lighting;
-        let bytes = Self::pixel_bytes(wanted.size_px);
+        let bytes = image_bytes(wanted.size_px);
         let direct = self.surfaces.direct.ensure(&self.gpu, "direct light of surfaces", bytes)?;
         let view = self.surface_view(wanted)?;
         let open = no_map(&self.gpu, &mut self.light.no_map)?;
@@ -128,11 +129,6 @@ impl Engine {
         Ok(frame)
     }
 
-    /// An image of this size: its pixels, 16 bytes each.
-    pub(super) fn pixel_bytes([width, height]: [u32; 2]) -> u64 {
-        RADIANCE_BYTES * u64::from(width) * u64::from(height)
-    }
-
     pub(super) fn surface_image(&self) -> Result<&SurfaceImage, EngineError> {
         Ok(self.surfaces.image.as_ref().ok_or_else(|| missing("surface image"))?)
     }
@@ -145,7 +141,7 @@ impl Engine {
 
     /// What the view asks for, in linear light.
     pub(super) fn record_composed(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
-        let shown = self.surfaces.shown.ensure(&self.gpu, "shown light", Self::pixel_bytes(wanted.size_px))?;
+        let shown = self.surfaces.shown.ensure(&self.gpu, "shown light", image_bytes(wanted.size_px))?;
         self.surfaces.nothing.ensure(&self.gpu, "no light", RADIANCE_BYTES)?;
         self.composed(wanted, wanted.settings.look.surface, &shown)
     }
@@ -190,7 +186,7 @@ impl Engine {
             return Ok(None);
         }
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
-        let shown = self.gpu.buffer("a part of shown light", Self::pixel_bytes(wanted.size_px), usage)?;
+        let shown = self.gpu.buffer("a part of shown light", image_bytes(wanted.size_px), usage)?;
         Job::new(self.composed(wanted, part, &shown)?).run_to_end(&self.gpu)?;
         // Not a kernel of the frame.
         self.gpu.take_timings();
@@ -260,6 +256,6 @@ impl Engine {
     pub fn read_surfaces(&self) -> Result<Option<Vec<[f32; 4]>>, EngineError> {
         let Some(wanted) = self.wanted.as_ref().filter(|wanted| wanted.shows_surfaces()) else { return Ok(None) };
         let shown = self.surfaces.shown.made("shown light")?;
-        Ok(Some(self.gpu.read(&shown, 0..Self::pixel_bytes(wanted.size_px))?))
+        Ok(Some(self.gpu.read(&shown, 0..image_bytes(wanted.size_px))?))
     }
 }

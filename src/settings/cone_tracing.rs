@@ -63,12 +63,20 @@ impl Default for ConeTracing {
 impl ConeTracing {
     pub const MAX_CONES: u32 = 64;
     pub const PATTERNS_PX: [u32; 3] = [1, 2, 4];
-    /// The paper's sizes of direct and indirect light.
+    /// Without a distance of its own, occlusion ends after this part of the grid.
+    pub const OCCLUSION_GRID_PART: f64 = 1.0 / 8.0;
+    /// Indirect light in the paper, under pictures of 1920 x 1080.
     pub const PAPER_INDIRECT_PX: [u32; 2] = [1280, 720];
     pub const CONE_DEGREES: RangeInclusive<f64> = 0.0..=120.0;
     pub const START_VOXELS: RangeInclusive<f64> = 0.0..=16.0;
     pub const STEP_DIAMETERS: RangeInclusive<f64> = 0.125..=2.0;
     pub const INDIRECT_PX: RangeInclusive<u32> = 16..=8192;
+
+    /// What is farther away occludes nothing, in cells of a grid of `grid_cells`³ cells of `span` scene units.
+    pub fn occlusion_cells(&self, grid_cells: u32, span: f64) -> f64 {
+        let far = f64::from(grid_cells) * Self::OCCLUSION_GRID_PART;
+        self.occlusion_distance.map_or(far, |distance| distance / span)
+    }
 
     /// Size of the image whose pixels send out specular cones: as large as the picture, or scaled down to
     /// fit [`Self::indirect_px`].

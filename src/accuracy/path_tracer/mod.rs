@@ -39,9 +39,6 @@ use lights::{Emitters, Punctual};
 use sampler::Sampler;
 use surface::SurfaceReader;
 
-/// What is near without a distance asked for: this share of the grid.
-const OCCLUSION_SHARE: f64 = 1.0 / 8.0;
-
 /// What settings leave open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -105,14 +102,12 @@ impl<'a> Scene<'a> {
         let readers = readers(prepared, &triangles, &pose, (lighting.emission, options.reflection));
         let lights = posed_lights(&prepared.scene, &pose, lighting, &shown, emits(prepared, lighting));
         let grid = &prepared.grid;
-        let occlusion = settings.cone_tracing.occlusion_distance;
         let camera = prepared.camera(settings, &pose, options.size_px);
         Ok(Self {
             punctual: lights.iter().map(|light| Punctual::new(light, grid)).collect(),
             emitters: Emitters::new(triangles.tree(), &readers),
             sky_nits: DVec3::from_array(lighting.sky_nits),
-            occlusion_cells: occlusion
-                .map_or(OCCLUSION_SHARE * f64::from(grid.cells()), |distance| distance / grid.span),
+            occlusion_cells: settings.cone_tracing.occlusion_cells(grid.cells(), grid.span),
             rays: CameraRays::new(&camera, grid, options.size_px),
             textures: prepared.texture_hashes(),
             triangles,

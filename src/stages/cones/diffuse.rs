@@ -8,9 +8,6 @@ use crate::settings::ConeTracing;
 use crate::stages::light::gather::{ConeShape, Cones};
 use crate::stages::sample::Sampler;
 
-/// Without a distance of its own, occlusion ends after this part of the grid.
-pub const OCCLUSION_GRID_PART: f64 = 1.0 / 8.0;
-
 /// Mirror of `DiffuseParams` in shaders/cones/diffuse.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -36,7 +33,6 @@ pub struct DiffuseCones {
 impl DiffuseCones {
     /// In a grid of `grid_cells`³ cells of `span` scene units.
     pub fn new(settings: &ConeTracing, grid_cells: u32, span: f64) -> Self {
-        let distance = settings.occlusion_distance.map(|distance| distance / span);
         Self {
             cones: Cones {
                 count: settings.cones,
@@ -46,7 +42,7 @@ impl DiffuseCones {
                 reach_cells: f64::INFINITY,
             },
             pattern_px: settings.pattern_px,
-            occlusion_cells: distance.unwrap_or(f64::from(grid_cells) * OCCLUSION_GRID_PART),
+            occlusion_cells: settings.occlusion_cells(grid_cells, span),
         }
     }
 

@@ -24,12 +24,11 @@ pub mod upsample;
 pub mod upsample_ref;
 
 use super::sample::SampledOctree;
+use super::surface::RADIANCE_BYTES;
 use super::view::ViewParams;
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{Kernel, PassBuilder};
 
-/// Bytes of a pixel of an image.
-pub const PIXEL_BYTES: u64 = 16;
 /// Sides of the tiles in which threads walk an image, and in which specular cones are decided.
 pub const TILE_PX: u32 = 8;
 /// A filter's weights below this are none.
@@ -59,7 +58,7 @@ impl Surfaces<'_> {
 
 /// Bytes of an image of that size.
 pub fn image_bytes(size_px: [u32; 2]) -> u64 {
-    PIXEL_BYTES * pixels(size_px)
+    RADIANCE_BYTES * pixels(size_px)
 }
 
 fn pixels(size_px: [u32; 2]) -> u64 {

@@ -12,11 +12,12 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::glossy_tiles::TileList;
-use super::{ConesInput, PIXEL_BYTES, TILE_PX};
+use super::{ConesInput, TILE_PX};
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 use crate::settings::ConeTracing;
 use crate::stages::light::gather::{ConeShape, Cones};
 use crate::stages::sample::Sampler;
+use crate::stages::surface::RADIANCE_BYTES;
 
 /// Full apex angles (section 5.2).
 pub const NARROWEST_DEGREES: f64 = 1.0;
@@ -83,7 +84,7 @@ pub fn record(
         .bind("light", &octree.light)
         .bind("list", &tiles.list)
         .bind("specular", specular)
-        .bytes_moved(3 * PIXEL_BYTES * threads)
+        .bytes_moved(3 * RADIANCE_BYTES * threads)
         .dispatch(threads);
 }
 
