@@ -10,8 +10,9 @@ use super::{ExportError, write_file};
 /// Writes four channels a pixel, rows from the top: linear red, green and blue, and 1 where a surface is.
 pub fn write_exr(file: &Path, [width, height]: [u32; 2], pixels: &[[f32; 4]]) -> Result<(), ExportError> {
     let failed = |cause: &dyn ToString| ExportError::new(file, cause.to_string());
-    let values = pixels.as_flattened().to_vec();
-    let picture = Rgba32FImage::from_raw(width, height, values)
+    let picture = Some(pixels.as_flattened().to_vec())
+        .filter(|_| pixels.len() as u64 == u64::from(width) * u64::from(height))
+        .and_then(|values| Rgba32FImage::from_raw(width, height, values))
         .ok_or_else(|| failed(&format!("{} pixels are not {width} x {height}", pixels.len())))?;
     let mut bytes = Cursor::new(Vec::new());
     picture.write_to(&mut bytes, ImageFormat::OpenExr).map_err(|error| failed(&error))?;
