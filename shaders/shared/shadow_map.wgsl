@@ -22,11 +22,14 @@ fn shadow_layer(p: vec3<f32>) -> u32 {
     return shadow.count;
 }
 
-// 1 where texel (x, y) of the layer lets light through to `distance`. Beyond the edge lies what is at the
-// edge: on the faces of a cube it goes on there.
+// Beyond the edge lies what is at the edge: on the faces of a cube it goes on there.
+fn inside_map(texel: vec2<i32>) -> vec2<i32> {
+    return clamp(texel, vec2<i32>(0), vec2<i32>(i32(shadow.size_px) - 1));
+}
+
+// 1 where texel (x, y) of the layer lets light through to `distance`.
 fn texel_lit(texel: vec2<i32>, layer: u32, distance: f32) -> f32 {
-    let inside = clamp(texel, vec2<i32>(0), vec2<i32>(i32(shadow.size_px) - 1));
-    return select(0.0, 1.0, textureLoad(shadow_map, inside, layer, 0).x >= distance);
+    return select(0.0, 1.0, textureLoad(shadow_map, inside_map(texel), layer, 0).x >= distance);
 }
 
 // In texels, from the centre of the first.
@@ -85,7 +88,7 @@ fn plane_in_layer(p: vec3<f32>, normal: vec3<f32>, layer: u32) -> PlaneInLayer {
 // 0 where what the texel sees lies above the plane and hides it. A texel whose ray never comes down to the
 // plane sees what may be far behind the point: then the distance tells.
 fn texel_clear(texel: vec2<i32>, layer: u32, plane: PlaneInLayer) -> f32 {
-    let inside = clamp(texel, vec2<i32>(0), vec2<i32>(i32(shadow.size_px) - 1));
+    let inside = inside_map(texel);
     let distance = textureLoad(shadow_map, inside, layer, 0).x;
     if distance >= NEVER {
         return 1.0;

@@ -168,11 +168,12 @@ fn surfaces(painter: &Painter, corner: Pos2, look: &Look, values: Values) {
 }
 
 fn slice(painter: &Painter, corner: Pos2, slice: &Slice, values: Values) {
-    let (name, map) = match slice.value {
-        SliceValue::Radiance => ("luminance of the radiance, nits", ColorBy::Radiance),
-        SliceValue::Irradiance => ("luminance of the irradiance, lux", ColorBy::Irradiance),
-        SliceValue::Occupancy => ("occupancy", ColorBy::Occupancy),
+    let name = match slice.value {
+        SliceValue::Radiance => "luminance of the radiance, nits",
+        SliceValue::Irradiance => "luminance of the irradiance, lux",
+        SliceValue::Occupancy => "occupancy",
     };
+    let map = slice.value.color();
     let ticks = values.range.map(|range| ticks(range, slice.logarithmic)).unwrap_or_default();
     let name = if slice.logarithmic { format!("{name}, logarithmic") } else { name.to_owned() };
     scale(painter, corner, &name, &ticks, |part| legend_value(map, part));

@@ -23,6 +23,7 @@ mod reference;
 mod render;
 mod session;
 mod statistics;
+mod surface_times;
 mod values;
 mod view_values;
 mod voxels;

@@ -61,7 +61,7 @@ impl Engine {
         let terms = DiffuseTerms { radiance: asked.radiance.is_ok(), occlusion: asked.occlusion.is_ok() };
         let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
         let cones = DiffuseCones::new(settings, grid.cells(), grid.span);
-        let params = DiffuseParams::new(&cones, sky(wanted), size_px);
+        let params = DiffuseParams::new(&cones, wanted.sky_nits(), size_px);
         let view = self.surface_view(wanted)?;
         let octree = self.sampled_by_cones(wanted)?;
         let input = ConesInput { octree: &octree, surfaces: Surfaces { image: self.surface_image()?, view: &view } };
@@ -113,7 +113,7 @@ impl Engine {
         let slot = if is_small { &mut self.surfaces.specular_traced } else { &mut self.surfaces.specular };
         let specular = slot.ensure(&self.gpu, "specular cones", image_bytes(size_px))?;
         let list = self.surfaces.glossy_list.clone().ok_or_else(|| missing("glossy tile list"))?;
-        let params = SpecularParams::new(settings, sky(wanted), size_px);
+        let params = SpecularParams::new(settings, wanted.sky_nits(), size_px);
         let view = self.surface_view(wanted)?;
         let octree = self.sampled_by_cones(wanted)?;
         let input = ConesInput { octree: &octree, surfaces: Surfaces { image: self.surface_image()?, view: &view } };
@@ -143,8 +143,4 @@ impl Engine {
 fn sampler(wanted: &Wanted) -> Sampler {
     let cones = &wanted.settings.cone_tracing;
     Sampler { sampling: cones.sampling, lookup: cones.lookup, opacity: wanted.settings.lighting.opacity }
-}
-
-fn sky(wanted: &Wanted) -> [f32; 3] {
-    wanted.settings.lighting.sky_nits.map(|channel| channel as f32)
 }

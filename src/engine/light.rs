@@ -174,7 +174,7 @@ impl Engine {
         let light = self.light.buffers.light.made("light")?;
         let lighting = &wanted.settings.lighting;
         let cones = Cones { count: lighting.cones, aperture_degrees: lighting.cone_degrees, ..Cones::default() };
-        let params = ConeParams::new(&cones, lighting.sky_nits.map(|channel| channel as f32));
+        let params = ConeParams::new(&cones, wanted.sky_nits());
         gather::record(&self.gpu, &mut frame, &octree, (&light, lighting.opacity), (gathered, &params), irradiance);
         Ok(frame)
     }

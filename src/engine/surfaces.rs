@@ -151,7 +151,7 @@ impl Engine {
         let view = self.surface_view(wanted)?;
         let asked = wanted.cones_asked();
         let params = ComposeParams {
-            sky: wanted.settings.lighting.sky_nits.map(|channel| channel as f32),
+            sky: wanted.sky_nits(),
             glossy_roughness: wanted.settings.cone_tracing.glossy_roughness as f32,
             span: self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid.span as f32,
             pad: 0,

@@ -52,6 +52,11 @@ impl Wanted {
         !plan::only_opacity(&self.facts, &self.settings)
     }
 
+    /// Radiance from all directions, as kernels take it.
+    pub fn sky_nits(&self) -> [f32; 3] {
+        self.settings.lighting.sky_nits.map(|channel| channel as f32)
+    }
+
     pub fn shows_surfaces(&self) -> bool {
         self.settings.look.view == View::Surfaces && !self.shows_nothing()
     }

@@ -3,7 +3,6 @@
 //! Every term is compared at the pixels' centres. Without bounces in the octree, the truth is the path
 //! tracer's first bounce; with any, all of them.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::Context;
@@ -19,7 +18,7 @@ use super::race::{Race, flip};
 use super::{Case, Table};
 use crate::cli::reference::traced;
 use crate::cli::session::Session;
-use crate::cli::statistics::Spread;
+use crate::cli::surface_times;
 use crate::cli::{output, values::Size};
 
 const SIZE_PX: [u32; 2] = [320, 180];
@@ -104,12 +103,11 @@ impl RenderingOptions {
         let mut rows = Vec::new();
         for (surface, terms) in FRAMES {
             settings.look.surface = surface;
-            let kernels_ms = measure(session, &settings, size_px, case.runs)?;
+            // After a run that is not measured.
+            let measured = surface_times::measure(session, &settings, size_px, (1, case.runs))?;
+            let kernels_ms = surface_times::medians(&measured);
             for (part, kernels) in terms {
-                let belongs = |kernel: &str| kernels.iter().any(|start| kernel.starts_with(start));
-                let of_term = kernels_ms.iter().filter(|(kernel, _)| belongs(kernel)).map(|(_, ms)| ms);
-                // The sum of no numbers would be −0.
-                let cones_ms = of_term.fold(0.0, |sum, ms| sum + ms);
+                let cones_ms = surface_times::sum(&kernels_ms, kernels);
                 let Some(cones) = session.engine.read_surface_part(*part)? else { continue };
                 let truth = film.shown(*part, &settings.lighting).context("paths show every term")?;
                 let shown = Shown::new(&settings.look, *part, &truth);
@@ -131,29 +129,6 @@ impl RenderingOptions {
 
 fn stem(session: &Session, settings: &Settings, number: usize) -> String {
     format!("{}-{}-{number}", session.prepared.scene.name, settings.discretization.grid)
-}
-
-/// Medians of every kernel behind lit surfaces, after a run that is not measured.
-fn measure(
-    session: &mut Session,
-    settings: &Settings,
-    size_px: [u32; 2],
-    runs: u32,
-) -> anyhow::Result<BTreeMap<String, f64>> {
-    let mut times_ms: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-    for run in 0..=runs {
-        session.engine.invalidate_surfaces();
-        session.run(settings, size_px)?;
-        let mut of_run: BTreeMap<String, f64> = BTreeMap::new();
-        for timing in session.engine.timings() {
-            *of_run.entry(timing.kernel).or_default() += timing.ms;
-        }
-        if run > 0 {
-            of_run.into_iter().for_each(|(kernel, ms)| times_ms.entry(kernel).or_default().push(ms));
-        }
-    }
-    let median = |(kernel, times_ms): (String, Vec<f64>)| Some((kernel, Spread::of(&times_ms)?.median_ms));
-    Ok(times_ms.into_iter().filter_map(median).collect())
 }
 
 impl Compared<'_> {

@@ -1,7 +1,5 @@
 //! What lit surfaces cost, pass by pass, against number and aperture of cones, resolution and sampling.
 
-use std::collections::BTreeMap;
-
 use anyhow::Context;
 use octolume::settings::{ConeTracing, Lookup, Sampling, Settings, SurfaceView, View};
 use serde::Serialize;
@@ -10,6 +8,7 @@ use super::SIZE_PX;
 use crate::cli::output;
 use crate::cli::session::Session;
 use crate::cli::statistics::Spread;
+use crate::cli::surface_times::{self, KernelMs, sum};
 
 /// Folders of the kernels behind the view.
 const KERNELS: [&str; 2] = ["surface/", "cones/"];
@@ -34,7 +33,7 @@ pub struct SurfaceReport {
 struct VariantCost {
     name: &'static str,
     cones: ConeTracing,
-    kernels_ms: BTreeMap<String, f64>,
+    kernels_ms: KernelMs,
     /// Diffuse cones and filter.
     diffuse_ms: f64,
     /// Of all kernels of the view, per run.
@@ -88,46 +87,26 @@ fn measure_variant(
     session: &mut Session,
     name: &'static str,
     settings: &Settings,
-    (warmup, runs): (u32, u32),
+    runs: (u32, u32),
 ) -> anyhow::Result<VariantCost> {
-    let mut kernels: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-    let mut totals = Vec::new();
-    for run in 0..warmup + runs {
-        session.engine.invalidate_surfaces();
-        session.run(settings, SIZE_PX)?;
-        if run < warmup {
-            continue;
-        }
-        let mut of_run: BTreeMap<String, f64> = BTreeMap::new();
-        for timing in session.engine.timings() {
-            if KERNELS.iter().any(|folder| timing.kernel.starts_with(folder)) {
-                *of_run.entry(timing.kernel).or_default() += timing.ms;
-            }
-        }
-        totals.push(of_run.values().sum());
-        of_run.into_iter().for_each(|(kernel, ms)| kernels.entry(kernel).or_default().push(ms));
-    }
-    let kernels_ms: BTreeMap<String, f64> =
-        kernels.into_iter().filter_map(|(kernel, ms)| Some((kernel, Spread::of(&ms)?.median_ms))).collect();
+    let measured = surface_times::measure(session, settings, SIZE_PX, runs)?;
+    let totals: Vec<f64> = measured.iter().map(|of_run| sum(of_run, &KERNELS)).collect();
+    let mut kernels_ms = surface_times::medians(&measured);
+    kernels_ms.retain(|kernel, _| KERNELS.iter().any(|folder| kernel.starts_with(folder)));
     Ok(VariantCost {
         name,
         cones: settings.cone_tracing,
-        diffuse_ms: column_ms(&kernels_ms, COLUMNS[2].1) + column_ms(&kernels_ms, COLUMNS[3].1),
+        diffuse_ms: sum(&kernels_ms, COLUMNS[2].1) + sum(&kernels_ms, COLUMNS[3].1),
         kernels_ms,
         total: Spread::of(&totals).context("no run was measured")?,
     })
-}
-
-fn column_ms(kernels_ms: &BTreeMap<String, f64>, starts: &[&str]) -> f64 {
-    let belongs = |kernel: &str| starts.iter().any(|start| kernel.starts_with(start));
-    kernels_ms.iter().filter(|(kernel, _)| belongs(kernel)).map(|(_, ms)| ms).sum()
 }
 
 impl SurfaceReport {
     pub fn text(&self) -> String {
         let heads: Vec<&str> = ["ms"].into_iter().chain(COLUMNS.map(|(head, _)| head)).chain(["total"]).collect();
         let rows = self.variants.iter().map(|variant| {
-            let columns = COLUMNS.map(|(_, starts)| format!("{:.1}", column_ms(&variant.kernels_ms, starts)));
+            let columns = COLUMNS.map(|(_, starts)| format!("{:.1}", sum(&variant.kernels_ms, starts)));
             let total = format!("{:.1}", variant.total.median_ms);
             [variant.name.to_owned()].into_iter().chain(columns).chain([total]).collect()
         });

@@ -75,12 +75,6 @@ pub struct DiffuseTerms {
     pub occlusion: bool,
 }
 
-impl DiffuseTerms {
-    pub fn of(settings: &ConeTracing) -> Self {
-        Self { radiance: settings.diffuse, occlusion: settings.ambient_occlusion }
-    }
-}
-
 /// Writes `diffuse`, a vec4 a pixel of `params.size_px`. The octree's light must hold the sampler's opacity.
 pub fn record(
     gpu: &Gpu,

@@ -25,35 +25,18 @@ pub mod upsample_ref;
 
 use super::sample::SampledOctree;
 use super::surface::RADIANCE_BYTES;
-use super::view::ViewParams;
-use crate::data::surface_image::SurfaceImage;
-use crate::gpu::{Kernel, PassBuilder};
+pub use super::surface::Surfaces;
+use super::view::picture::tiled_threads;
+pub use super::view::picture::{TILE_PX, tile_count};
 
-/// Sides of the tiles in which threads walk an image, and in which specular cones are decided.
-pub const TILE_PX: u32 = 8;
 /// A filter's weights below this are none.
 pub const LEAST_WEIGHT: f64 = 1e-4;
-
-/// The surfaces that are lit, and the view that they were seen in, of the same size.
-#[derive(Clone, Copy, Debug)]
-pub struct Surfaces<'a> {
-    pub image: &'a SurfaceImage,
-    pub view: &'a ViewParams,
-}
 
 /// What cones start at and what they go through.
 #[derive(Clone, Copy, Debug)]
 pub struct ConesInput<'a> {
     pub octree: &'a SampledOctree,
     pub surfaces: Surfaces<'a>,
-}
-
-impl Surfaces<'_> {
-    fn bind<'a>(&self, pass: PassBuilder<'a, Kernel>) -> PassBuilder<'a, Kernel> {
-        pass.uniform("view", self.view)
-            .texture("surface_near", self.image.near.view())
-            .texture("surface_stuff", self.image.stuff.view())
-    }
 }
 
 /// Bytes of an image of that size.
@@ -63,14 +46,4 @@ pub fn image_bytes(size_px: [u32; 2]) -> u64 {
 
 fn pixels(size_px: [u32; 2]) -> u64 {
     u64::from(size_px[0]) * u64::from(size_px[1])
-}
-
-/// Tiles that cover an image.
-pub fn tile_count(size_px: [u32; 2]) -> u32 {
-    size_px[0].div_ceil(TILE_PX) * size_px[1].div_ceil(TILE_PX)
-}
-
-/// Threads that walk an image in tiles.
-fn tiled_threads(size_px: [u32; 2]) -> u64 {
-    u64::from(TILE_PX * TILE_PX) * u64::from(tile_count(size_px))
 }

@@ -6,7 +6,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::RADIANCE_BYTES;
+use super::{RADIANCE_BYTES, Surfaces};
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 use crate::settings::SurfaceView;
@@ -63,12 +63,10 @@ pub fn record(
         ("SPECULAR", flag(terms.specular.is_some())),
     ];
     let pixels = u64::from(view.width_px) * u64::from(view.height_px);
-    frame
-        .pass(&gpu.kernel("surface/compose.wgsl", &constants))
-        .uniform("view", view)
+    let pass = frame.pass(&gpu.kernel("surface/compose.wgsl", &constants));
+    Surfaces { image: surfaces, view }
+        .bind(pass)
         .uniform("params", params)
-        .texture("surface_near", surfaces.near.view())
-        .texture("surface_stuff", surfaces.stuff.view())
         .bind("direct", terms.direct.unwrap_or(terms.nothing))
         .bind("diffuse", terms.diffuse.unwrap_or(terms.nothing))
         .bind("specular", terms.specular.unwrap_or(terms.nothing))

@@ -25,6 +25,7 @@ pub mod sum_luminance_ref;
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{GpuBuffer, Kernel, PassBuilder};
 use crate::stages::view::ViewParams;
+use crate::stages::view::picture::tiled_threads;
 
 /// Reflectance at normal incidence of what is no metal (glTF 2.0, appendix B.3.3).
 pub const DIELECTRIC_REFLECTANCE: f64 = 0.04;
@@ -36,6 +37,22 @@ pub const LEAST_EYE_COSINE: f64 = 0.01;
 /// hollow do not shade one another along their edges, and what f32 distances of 1024 cells are off by.
 pub const SHADOW_HEIGHT_TEXELS: f64 = 0.5;
 pub const SHADOW_HEIGHT_CELLS: f64 = 1.0 / 512.0;
+
+/// What the camera sees, and the view that it was seen in, of the same size.
+#[derive(Clone, Copy, Debug)]
+pub struct Surfaces<'a> {
+    pub image: &'a SurfaceImage,
+    pub view: &'a ViewParams,
+}
+
+impl Surfaces<'_> {
+    /// All that shared/surface.wgsl declares.
+    pub(super) fn bind<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
+        pass.uniform("view", self.view)
+            .texture("surface_near", self.image.near.view())
+            .texture("surface_stuff", self.image.stuff.view())
+    }
+}
 
 /// What the camera sees, and where the light that reaches it is summed.
 #[derive(Clone, Copy, Debug)]
@@ -49,15 +66,11 @@ pub struct Lit<'a> {
 
 impl Lit<'_> {
     fn bind<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
-        pass.uniform("view", self.view)
-            .texture("surface_near", self.image.near.view())
-            .texture("surface_stuff", self.image.stuff.view())
-            .bind("direct", self.direct)
+        Surfaces { image: self.image, view: self.view }.bind(pass).bind("direct", self.direct)
     }
 
-    /// Pixels in tiles of 8 x 8 (shaders/shared/view.wgsl): a thread each.
     fn tiled_threads(&self) -> u64 {
-        self.image.size_px().into_iter().map(|side| u64::from(side.next_multiple_of(8))).product()
+        tiled_threads(self.image.size_px())
     }
 
     /// Of the texels, and of a sum that is written `times` times.

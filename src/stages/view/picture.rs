@@ -31,7 +31,7 @@ impl Picture {
 
     /// Pixels in tiles of 8 x 8 (shaders/shared/view.wgsl): a thread each.
     pub fn tiled_threads(&self) -> u64 {
-        self.size_px().into_iter().map(|side| u64::from(side.next_multiple_of(8))).product()
+        tiled_threads(self.size_px())
     }
 
     /// Blocks until submitted work is done.
@@ -55,6 +55,19 @@ impl Picture {
         let distance: Option<f32> = bytemuck::pod_collect_to_vec(&bytes).first().copied();
         Ok(distance.filter(|distance| *distance < super::NO_DEPTH))
     }
+}
+
+/// Side of the tiles in which threads walk an image (shaders/shared/view.wgsl).
+pub const TILE_PX: u32 = 8;
+
+/// Tiles that cover an image.
+pub fn tile_count(size_px: [u32; 2]) -> u32 {
+    size_px.map(|side| side.div_ceil(TILE_PX)).iter().product()
+}
+
+/// Threads that walk an image in tiles, a pixel each.
+pub fn tiled_threads(size_px: [u32; 2]) -> u64 {
+    u64::from(TILE_PX * TILE_PX) * u64::from(tile_count(size_px))
 }
 
 /// What triangles need beside it to hide one another.
