@@ -10,6 +10,7 @@ use crate::data::octree::PointerLayout;
 use crate::gpu::{GpuBuffer, GpuError, Recorder};
 use crate::plan::{FramePlan, Pass};
 use crate::settings::View;
+use crate::settings::lighting::Shadows;
 use crate::stages::build::link;
 use crate::stages::compare::compare_sets;
 use crate::stages::sample;
@@ -71,6 +72,8 @@ impl Engine {
                 self.done.irradiance = false;
                 self.done.diffuse = None;
                 self.done.specular = None;
+                // What was marched went through the leaves of before.
+                self.done.direct = self.done.direct.take().filter(|lit| lit.lighting.shadows != Shadows::March);
                 self.done.view = None;
             }
             Which::Other => self.done.other = None,

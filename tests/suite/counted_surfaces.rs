@@ -2,8 +2,8 @@
 
 use octolume::plan::Pass;
 use octolume::scene::{Light, LightKind, Material, Node, OrbitCamera, Scene, Trs};
-use octolume::settings::lighting::{LightEdit, SunShines};
-use octolume::settings::{Lookup, Settings, SurfaceView, View};
+use octolume::settings::lighting::{LightEdit, Shadows, SunShines};
+use octolume::settings::{Filter, Lookup, Settings, SurfaceView, View};
 
 use crate::plan::{Counted, running};
 use crate::scenes::{cube_scene, node};
@@ -121,4 +121,17 @@ fn cones_that_hop_by_pointers_find_them_linked() {
         assert!(counted.frame().0.runs(Pass::LinkNodes));
         assert_eq!(counted.engine.read_surfaces().expect("readable"), by_ranks, "{lookup:?}");
     }
+}
+
+#[test]
+fn shadows_that_were_marched_through_other_leaves_are_marched_again() {
+    let mut counted = counted(1.0, true);
+    counted.settings.lighting.shadows = Shadows::March;
+    counted.settings.look.surface = SurfaceView::Direct;
+    assert!(counted.frame().0.runs(Pass::LightByMarching));
+    counted.settings.look.view = View::Voxels;
+    counted.settings.discretization.filter = Filter::Nearest;
+    assert!(counted.frame().0.runs(Pass::MarkLeaves));
+    counted.settings.look.view = View::Surfaces;
+    assert!(counted.frame().0.runs(Pass::LightByMarching));
 }
