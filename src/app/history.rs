@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     fn timing(kernel: &str, ms: f64) -> KernelTiming {
-        KernelTiming { kernel: kernel.to_owned(), ms, bytes_moved: 4, threads: 1 }
+        KernelTiming { group: 0, kernel: kernel.to_owned(), ms, bytes_moved: 4, threads: 1 }
     }
 
     #[test]

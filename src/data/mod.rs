@@ -5,5 +5,6 @@ pub mod light;
 pub mod octree;
 pub mod packing;
 pub mod pages;
+pub mod slot;
 pub mod surface_image;
 pub mod voxel_cache;

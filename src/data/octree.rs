@@ -22,7 +22,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::gpu::{Gpu, GpuBuffer, GpuError};
+pub use super::slot::Slot;
 
 /// Weight of a voxel that lies wholly in one cell: 2^(3k), k = 8 fraction bits an axis.
 pub const FULL_WEIGHT: u32 = 1 << (3 * FRACTION_BITS);
@@ -177,44 +177,4 @@ pub struct OctreeBuffers {
     pub sorted_voxels: Slot,
     pub heavy_blocks: Slot,
     pub scan_sums: Vec<Slot>,
-}
-
-/// A buffer made on first need and made again, larger, when it no longer suffices.
-#[derive(Clone, Debug, Default)]
-pub struct Slot(Option<GpuBuffer>);
-
-impl Slot {
-    /// At least `bytes` large. Contents are undefined after growth.
-    pub fn ensure(&mut self, gpu: &Gpu, label: &str, bytes: u64) -> Result<GpuBuffer, GpuError> {
-        if let Some(buffer) = &self.0
-            && buffer.bytes() >= bytes
-        {
-            return Ok(buffer.clone());
-        }
-        let limit = gpu.limits.max_storage_buffer_binding_size;
-        if bytes > limit {
-            let (label, adapter) = (label.to_owned(), gpu.info.name.clone());
-            return Err(GpuError::BufferTooLarge { label, bytes, limit, adapter });
-        }
-        // The old one goes first: both at once might not fit.
-        let grown = self.0.take().is_some();
-        let bytes = bytes.max(4).next_multiple_of(4);
-        // Growing by an eighth more than asked keeps a slowly growing scene from reallocating every frame.
-        let roomy = if grown { bytes + (bytes / 8).next_multiple_of(4) } else { bytes };
-        let buffer = gpu.buffer(label, if roomy <= limit { roomy } else { bytes }, wgpu::BufferUsages::empty())?;
-        Ok(self.0.insert(buffer).clone())
-    }
-
-    /// The buffer, where an earlier stage must have made it.
-    pub fn made(&self, label: &str) -> Result<GpuBuffer, GpuError> {
-        self.0.clone().ok_or_else(|| GpuError::Missing { label: label.to_owned() })
-    }
-
-    pub fn get(&self) -> Option<&GpuBuffer> {
-        self.0.as_ref()
-    }
-
-    pub fn free(&mut self) {
-        self.0 = None;
-    }
 }

@@ -93,10 +93,14 @@ impl Engine {
             Some(work) => Some(work),
             None => self.start(step, &running)?,
         };
+        let mut took = Vec::new();
         let part = match work {
             None => None,
             Some(Work::Job(mut job)) => match job.advance(&self.gpu, budget)? {
-                JobState::Done => None,
+                JobState::Done => {
+                    took = job.take_timings();
+                    None
+                }
                 JobState::Running { submitted } => {
                     running.work = Some(Work::Job(job));
                     Some(submitted)
@@ -115,7 +119,7 @@ impl Engine {
         };
         if part.is_none() {
             running.steps.pop_front();
-            self.finished(step, &running.wanted);
+            self.finished(step, &running.wanted, took);
         }
         let state = running.state(part.unwrap_or(0.0));
         if !running.steps.is_empty() {
@@ -196,8 +200,7 @@ impl Engine {
     }
 
     /// Notes what now holds.
-    fn finished(&mut self, step: Step, wanted: &Wanted) {
-        let took = self.gpu.take_timings();
+    fn finished(&mut self, step: Step, wanted: &Wanted, took: Vec<KernelTiming>) {
         let discretization = &wanted.settings.discretization;
         match step {
             Step::UploadCaches | Step::UploadMesh => {}

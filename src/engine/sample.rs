@@ -21,8 +21,7 @@ impl Engine {
         let params = PointParams::new(direction);
         let mut frame = Recorder::default();
         sample_points::record(&self.gpu, &mut frame, &octree, (sampler, &params), &buffer, points.len() as u64);
-        Job::new(frame).run_to_end(&self.gpu)?;
-        let timings = self.gpu.take_timings();
+        let timings = Job::new(frame).run_to_end(&self.gpu)?;
         Ok((self.gpu.read(&buffer, 0..buffer.bytes())?, timings))
     }
 }

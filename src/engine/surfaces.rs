@@ -188,8 +188,6 @@ impl Engine {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
         let shown = self.gpu.buffer("a part of shown light", image_bytes(wanted.size_px), usage)?;
         Job::new(self.composed(wanted, part, &shown)?).run_to_end(&self.gpu)?;
-        // Not a kernel of the frame.
-        self.gpu.take_timings();
         Ok(Some(self.gpu.read(&shown, 0..shown.bytes())?))
     }
 

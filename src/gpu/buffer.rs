@@ -1,27 +1,18 @@
 //! GPU buffers that say how large they are, and how to get bytes in and out.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use bytemuck::Pod;
 
-use super::{Gpu, GpuError, lock};
+use super::memory::Reserved;
+use super::read_back::ReadBack;
+use super::{Gpu, GpuError};
 
 /// No binding is smaller, so that an empty array still holds one element of 16 bytes.
 const MIN_BYTES: u64 = 16;
 /// A read goes through staging buffers of at most this size.
 const READ_CHUNK_BYTES: u64 = 32 << 20;
-
-/// A live buffer, for the memory panel.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BufferUse {
-    pub label: String,
-    pub bytes: u64,
-}
-
-/// Every live buffer by serial number; a buffer leaves it when its last clone is dropped.
-pub(super) type Registry = Arc<Mutex<BTreeMap<u64, BufferUse>>>;
 
 /// A shared handle: clones are the same memory.
 #[derive(Clone, Debug)]
@@ -31,8 +22,7 @@ pub struct GpuBuffer(Arc<Inner>);
 struct Inner {
     raw: wgpu::Buffer,
     label: String,
-    serial: u64,
-    registry: Registry,
+    _reserved: Reserved,
 }
 
 impl GpuBuffer {
@@ -57,12 +47,6 @@ impl GpuBuffer {
         }
         let (label, bytes) = (self.label().to_owned(), self.bytes());
         Err(GpuError::Range { what, label, bytes, alignment, start: range.start, end: range.end })
-    }
-}
-
-impl Drop for Inner {
-    fn drop(&mut self) {
-        lock(&self.registry).remove(&self.serial);
     }
 }
 
@@ -128,25 +112,11 @@ impl Gpu {
     /// Copies a range (whole words) as of now; the answer comes later, without blocking.
     pub fn start_read(&self, buffer: &GpuBuffer, range_bytes: Range<u64>) -> Result<PendingRead, GpuError> {
         buffer.checked("read", range_bytes.clone(), 4)?;
-        let bytes = range_bytes.end - range_bytes.start;
-        let label = format!("read {}", buffer.label());
-        self.checked(&label, || {
-            let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(&label),
-                size: bytes.max(MIN_BYTES),
-                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
-            let mut encoder = self.device.create_command_encoder(&Default::default());
-            encoder.copy_buffer_to_buffer(buffer.raw(), range_bytes.start, &staging, 0, bytes);
-            self.queue.submit([encoder.finish()]);
-            let answer = Arc::new(Mutex::new(None));
-            let writer = Arc::clone(&answer);
-            staging.map_async(wgpu::MapMode::Read, .., move |result| {
-                *lock(&writer) = Some(result.map_err(|error| error.to_string()));
-            });
-            PendingRead { staging, answer, bytes, label: label.clone() }
-        })
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let read_back = ReadBack::encode(self, &mut encoder, &[(buffer.clone(), range_bytes)])?;
+        self.checked(&format!("read {}", buffer.label()), || self.queue.submit([encoder.finish()]))?;
+        read_back.map();
+        Ok(PendingRead(read_back))
     }
 
     pub(super) fn uncounted_buffer(
@@ -164,36 +134,20 @@ impl Gpu {
         let size = bytes.next_multiple_of(4).max(MIN_BYTES);
         let usage = usage | Usage::STORAGE | Usage::COPY_SRC | Usage::COPY_DST;
         let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
-        let raw = self.checked(label, || self.device.create_buffer(&descriptor)).map_err(|error| match error {
-            GpuError::Refused { cause, .. } => GpuError::OutOfMemory { label: label.to_owned(), bytes, cause },
-            error => error,
-        })?;
-        let serial = self.next_serial();
-        let entry = BufferUse { label: label.to_owned(), bytes: size };
-        lock(&self.registry).insert(serial, entry);
-        let registry = Arc::clone(&self.registry);
-        Ok(GpuBuffer(Arc::new(Inner { raw, label: label.to_owned(), serial, registry })))
+        let reserved = self.reserve(label, size)?;
+        let raw = self.allocated(label, bytes, || self.device.create_buffer(&descriptor))?;
+        Ok(GpuBuffer(Arc::new(Inner { raw, label: label.to_owned(), _reserved: reserved })))
     }
 }
 
 /// Bytes on their way from the GPU.
 #[derive(Debug)]
-pub struct PendingRead {
-    staging: wgpu::Buffer,
-    answer: Arc<Mutex<Option<Result<(), String>>>>,
-    bytes: u64,
-    label: String,
-}
+pub struct PendingRead(ReadBack);
 
 impl PendingRead {
     /// The bytes once they are here, else `None`; never blocks.
     pub fn take(&self, gpu: &Gpu) -> Result<Option<Vec<u8>>, GpuError> {
         gpu.poll()?;
-        let answer = lock(&self.answer).clone();
-        let Some(answer) = answer else { return Ok(None) };
-        answer.map_err(|cause| gpu.refused(&self.label, &cause))?;
-        let view = self.staging.get_mapped_range(..self.bytes.max(4));
-        let view = view.map_err(|error| gpu.refused(&self.label, &error.to_string()))?;
-        Ok(Some(view[..self.bytes as usize].to_vec()))
+        Ok(self.0.take(gpu)?.and_then(|mut reads| reads.pop()))
     }
 }

@@ -18,10 +18,12 @@ pub(super) const PASS_NS: f64 = 20e3;
 /// Time of one recorded pass; its slices added up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KernelTiming {
+    /// As begun when recording, see [`super::Recorder::begin`].
+    pub group: u32,
     /// Kernel name, or "clear LABEL" and "copy LABEL".
     pub kernel: String,
     pub ms: f64,
-    /// As declared when recording: reads and writes that the algorithm needs.
+    /// Reads and writes that the algorithm needs: as declared when recording, or counted.
     pub bytes_moved: u64,
     pub threads: u64,
 }

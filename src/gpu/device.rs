@@ -63,7 +63,6 @@ impl Gpu {
             registry: Arc::default(),
             serial: AtomicU64::default(),
             counters: Mutex::new(Counters::default()),
-            timings: Mutex::default(),
             scratch: Mutex::default(),
             health,
         }

@@ -1,5 +1,6 @@
 //! Turns the pieces of a slice into one command buffer and submits it.
 
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -8,6 +9,7 @@ use bytemuck::{Pod, Zeroable};
 use wgpu_profiler::{GpuProfiler, GpuProfilerQuery, GpuProfilerSettings};
 
 use super::bindings::buffer_binding;
+use super::read_back::ReadBack;
 use super::recorder::{Command, Pass, UNIFORM_ALIGNMENT};
 use super::{Gpu, GpuBuffer, GpuError, lock, raster};
 
@@ -70,13 +72,14 @@ impl Scratch {
     }
 }
 
-/// Submits the pieces; the returned number becomes the nanoseconds they took.
+/// Submits the pieces, and behind them the reads. The returned number becomes the nanoseconds the pieces took.
 pub(super) fn submit(
     gpu: &Gpu,
     commands: &[Command],
     pieces: &[Piece],
+    reads: &[(GpuBuffer, Range<u64>)],
     scratch: &mut Scratch,
-) -> Result<Arc<AtomicU64>, GpuError> {
+) -> Result<(Arc<AtomicU64>, Option<ReadBack>), GpuError> {
     let took_ns = Arc::new(AtomicU64::new(0));
     write_ranges(gpu, pieces, scratch)?;
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(LABEL) });
@@ -93,6 +96,7 @@ pub(super) fn submit(
             command => encode_transfer(&mut encoder, command, piece, scratch),
         }
     }
+    let read_back = if reads.is_empty() { None } else { Some(ReadBack::encode(gpu, &mut encoder, reads)?) };
     let finished = gpu.checked("recorded work", || {
         if let Some(profiler) = &mut scratch.profiler {
             profiler.resolve_queries(&mut encoder);
@@ -102,10 +106,11 @@ pub(super) fn submit(
         gpu.queue.on_submitted_work_done(move || {
             writer.store((start.elapsed().as_nanos() as u64).max(1), Ordering::Release);
         });
+        read_back.iter().for_each(ReadBack::map);
         scratch.profiler.as_mut().map_or(Ok(()), GpuProfiler::end_frame)
     })?;
     finished.map_err(|error| gpu.refused("timestamps", &error.to_string()))?;
-    Ok(took_ns)
+    Ok((took_ns, read_back))
 }
 
 fn write_ranges(gpu: &Gpu, pieces: &[Piece], scratch: &Scratch) -> Result<(), GpuError> {
@@ -157,7 +162,7 @@ fn encode_transfer(encoder: &mut wgpu::CommandEncoder, command: &Command, piece:
     let query = scratch.profiler.as_ref().map(|profiler| profiler.begin_query("transfer", encoder));
     let bytes = piece.end - piece.first;
     match command {
-        Command::Clear { buffer } => encoder.clear_buffer(buffer.raw(), piece.first, Some(bytes)),
+        Command::Clear { buffer, .. } => encoder.clear_buffer(buffer.raw(), piece.first, Some(bytes)),
         Command::Copy { from, from_offset, to, to_offset, .. } => {
             let (from_offset, to_offset) = (from_offset + piece.first, to_offset + piece.first);
             encoder.copy_buffer_to_buffer(from.raw(), from_offset, to.raw(), to_offset, bytes);

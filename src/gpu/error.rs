@@ -9,7 +9,7 @@ pub enum GpuError {
     NoDevice { adapter: String, cause: String },
     #[error("buffer \"{label}\" needs {bytes} bytes, more than the {limit} bytes that \"{adapter}\" allows a buffer")]
     BufferTooLarge { label: String, bytes: u64, limit: u64, adapter: String },
-    #[error("no memory on the GPU for buffer \"{label}\" of {bytes} bytes: {cause}")]
+    #[error("no memory on the GPU for the {bytes} bytes of \"{label}\": {cause}")]
     OutOfMemory { label: String, bytes: u64, cause: String },
     #[error("{place}: {cause}")]
     Shader { place: String, cause: String },

@@ -3,19 +3,20 @@
 //! A pass is cut into ranges of threads by what a thread of its kernel was measured to cost; a
 //! range starts at a whole workgroup, so workgroups hold the same threads however it is cut. One
 //! slice is on the queue at a time. Times come from timestamps where the device has them (one
-//! profiler frame a slice), else from the clock, shared out by the estimate.
+//! profiler frame a slice), else from the clock, shared out by the estimate. What is wanted back is copied
+//! at the end of the last slice.
 
+use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use super::cost::{Cost, KernelTiming, PASS_NS};
+use super::cost::{KernelTiming, PASS_NS};
 use super::encode::{self, MAX_PIECES, Piece, Scratch};
+use super::read_back::ReadBack;
 use super::recorder::{Command, Recorder};
-use super::{Gpu, GpuError, lock};
+use super::{Gpu, GpuBuffer, GpuError, counted, lock};
 
-/// Clearing and copying, cautiously.
-const NS_PER_BYTE: f64 = 0.25;
 /// A cut shorter than this part of the budget is not worth a submission's place.
 const MIN_PART_OF_BUDGET: f64 = 0.1;
 /// Below the two seconds after which drivers give a GPU up, with room for wrong guesses.
@@ -25,7 +26,7 @@ const UNWATCHED_BUDGET: Duration = Duration::from_millis(200);
 pub enum JobState {
     /// The part of all commands that is submitted, 0 to 1.
     Running { submitted: f32 },
-    /// All is submitted and finished.
+    /// All is submitted and finished, and what was wanted back is here.
     Done,
 }
 
@@ -38,6 +39,10 @@ pub struct Job {
     slice: Option<Slice>,
     scratch: Option<Scratch>,
     timings: Vec<KernelTiming>,
+    /// The recording's reads, then what its passes are counted by.
+    wanted_back: Vec<(GpuBuffer, Range<u64>)>,
+    read_back: Option<ReadBack>,
+    reads: Vec<Vec<u8>>,
     done: bool,
 }
 
@@ -50,8 +55,22 @@ struct Slice {
 
 impl Job {
     pub fn new(recorder: Recorder) -> Self {
-        let timings = recorder.commands.iter().map(Command::timing).collect();
-        Self { recorder, command: 0, unit: 0, slice: None, scratch: None, timings, done: false }
+        let commands = recorder.commands.iter().zip(&recorder.groups);
+        let timings = commands.map(|(command, group)| command.timing(*group)).collect();
+        let counted = counted::buffers(&recorder.commands);
+        let wanted_back = recorder.reads.iter().cloned().chain(counted).collect();
+        Self {
+            recorder,
+            command: 0,
+            unit: 0,
+            slice: None,
+            scratch: None,
+            timings,
+            wanted_back,
+            read_back: None,
+            reads: Vec::new(),
+            done: false,
+        }
     }
 
     /// Submits about `budget` of GPU time if the previous slice has finished; never blocks. Call
@@ -68,20 +87,39 @@ impl Job {
             return Ok(self.running());
         }
         let pieces = self.take_pieces(budget);
-        if pieces.is_empty() {
-            self.finish(gpu);
-            return Ok(JobState::Done);
+        let reads_now = self.is_cut_up() && self.read_back.is_none() && !self.wanted_back.is_empty();
+        if !pieces.is_empty() || reads_now {
+            self.submit(gpu, pieces)?;
+            return Ok(self.running());
         }
-        self.submit(gpu, pieces)?;
-        Ok(self.running())
+        if !self.received(gpu)? {
+            return Ok(self.running());
+        }
+        self.finish(gpu);
+        Ok(JobState::Done)
     }
 
-    /// Runs everything and waits for it.
-    pub fn run_to_end(mut self, gpu: &Gpu) -> Result<(), GpuError> {
+    /// Runs everything and waits for it; returns the times, in order of recording.
+    pub fn run_to_end(mut self, gpu: &Gpu) -> Result<Vec<KernelTiming>, GpuError> {
         while self.advance(gpu, UNWATCHED_BUDGET)? != JobState::Done {
             gpu.wait()?;
         }
-        Ok(())
+        Ok(self.take_timings())
+    }
+
+    /// Times of all commands in order of recording, once the job is done; none a second time.
+    pub fn take_timings(&mut self) -> Vec<KernelTiming> {
+        if self.done { std::mem::take(&mut self.timings) } else { Vec::new() }
+    }
+
+    /// What [`Recorder::read`] asked for, by number, once the job is done; nothing a second time.
+    pub fn take_reads(&mut self) -> Vec<Vec<u8>> {
+        std::mem::take(&mut self.reads)
+    }
+
+    /// Whether every command is submitted.
+    fn is_cut_up(&self) -> bool {
+        self.command >= self.recorder.commands.len()
     }
 
     fn running(&self) -> JobState {
@@ -124,7 +162,8 @@ impl Job {
             Some(scratch) => scratch,
             None => Scratch::take(gpu, &self.recorder.uniforms)?,
         };
-        let took_ns = encode::submit(gpu, &self.recorder.commands, &pieces, &mut scratch)?;
+        let reads = if self.is_cut_up() { &*self.wanted_back } else { &[] };
+        let (took_ns, read_back) = encode::submit(gpu, &self.recorder.commands, &pieces, reads, &mut scratch)?;
         for piece in pieces.iter().filter(|piece| piece.first == 0) {
             let command = &self.recorder.commands[piece.command];
             if matches!(command, Command::Pass(_) | Command::Raster { .. }) {
@@ -133,6 +172,7 @@ impl Job {
         }
         self.scratch = Some(scratch);
         self.slice = Some(Slice { pieces, took_ns });
+        self.read_back = read_back;
         Ok(())
     }
 
@@ -164,66 +204,18 @@ impl Job {
         true
     }
 
+    /// Whether all that is wanted back is here; takes it down.
+    fn received(&mut self, gpu: &Gpu) -> Result<bool, GpuError> {
+        let Some(read_back) = &self.read_back else { return Ok(true) };
+        let Some(mut bytes) = read_back.take(gpu)? else { return Ok(false) };
+        let counted = bytes.split_off(self.recorder.reads.len());
+        counted::put_down(&self.recorder.commands, &counted, &mut self.timings);
+        self.reads = bytes;
+        Ok(true)
+    }
+
     fn finish(&mut self, gpu: &Gpu) {
-        lock(&gpu.timings).append(&mut self.timings);
         lock(&gpu.scratch).extend(self.scratch.take());
         self.done = true;
-    }
-}
-
-impl Command {
-    /// Units of work, what one costs, and what their number in a cut is a multiple of.
-    fn shape(&self) -> (u64, f64, u64) {
-        match self {
-            Self::Pass(pass) => {
-                let ns_per_thread = lock(&pass.kernel.cost).ns_per_thread();
-                // A range that a kernel knows nothing of cannot be cut.
-                let step = if pass.kernel.ranged { u64::from(pass.kernel.workgroup_size[0]) } else { u64::MAX };
-                (u64::from(pass.threads), ns_per_thread, step)
-            }
-            Self::Raster { draws, .. } => {
-                let vertices: u64 = draws.iter().map(|draw| u64::from(draw.vertices)).sum();
-                let ns_per_vertex = draws.first().map_or(0.0, |draw| lock(&draw.kernel.cost).ns_per_thread());
-                // Without draws there is still the clearing.
-                (vertices.max(1), ns_per_vertex, 3)
-            }
-            Self::Clear { buffer } => (buffer.bytes(), NS_PER_BYTE, 4),
-            Self::Copy { bytes, .. } => (*bytes, NS_PER_BYTE, 4),
-        }
-    }
-
-    fn max_units(&self) -> u64 {
-        self.cost().map_or(u64::MAX, |cost| lock(cost).max_threads())
-    }
-
-    /// Where its measured times go.
-    fn cost(&self) -> Option<&Mutex<Cost>> {
-        match self {
-            Self::Pass(pass) => Some(&pass.kernel.cost),
-            Self::Raster { draws, .. } => draws.first().map(|draw| &draw.kernel.cost),
-            Self::Clear { .. } | Self::Copy { .. } => None,
-        }
-    }
-
-    /// What counters and timings call it.
-    fn name(&self) -> String {
-        match self {
-            Self::Pass(pass) => pass.kernel.name.clone(),
-            Self::Raster { draws, .. } => {
-                draws.first().map_or("clear picture".to_owned(), |draw| draw.kernel.name.clone())
-            }
-            Self::Clear { buffer } => format!("clear {}", buffer.label()),
-            Self::Copy { from, .. } => format!("copy {}", from.label()),
-        }
-    }
-
-    fn timing(&self) -> KernelTiming {
-        let (bytes_moved, threads) = match self {
-            Self::Pass(pass) => (pass.bytes_moved, u64::from(pass.threads)),
-            Self::Raster { draws, .. } => (0, draws.iter().map(|draw| u64::from(draw.vertices)).sum()),
-            Self::Clear { buffer } => (buffer.bytes(), 0),
-            Self::Copy { bytes, .. } => (2 * bytes, 0),
-        };
-        KernelTiming { kernel: self.name(), ms: 0.0, bytes_moved, threads }
     }
 }

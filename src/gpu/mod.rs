@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! shaders/x.wgsl ─► Source ─► Kernel ─┐
-//!                         GpuBuffer ──┴► Recorder ─► Job ─► slices of the queue ─► KernelTiming
+//!                         GpuBuffer ──┴► Recorder ─► Job ─► slices of the queue ─► KernelTiming, bytes
 //! ```
 //!
 //! A stage *records* what it wants done; nothing runs until a [`Job`] runs it, in pieces short
@@ -10,33 +10,41 @@
 
 mod bindings;
 mod buffer;
+mod command;
 pub mod constants;
 mod cost;
+mod counted;
 mod device;
 mod encode;
 mod error;
 mod job;
 mod kernel;
 pub mod layouts;
+mod memory;
+mod pass;
 mod raster;
+mod read_back;
 mod recorder;
 mod reflect;
 pub mod shaders;
 mod texture;
 
 use std::collections::{BTreeMap, HashMap};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 pub use bindings::{BindingKind, KernelBinding};
-pub use buffer::{BufferUse, GpuBuffer, PendingRead};
+pub use buffer::{GpuBuffer, PendingRead};
 pub use cost::KernelTiming;
+pub use counted::Counted;
 pub use encode::Threads;
 pub use error::GpuError;
 pub use job::{Job, JobState};
 pub use kernel::Kernel;
+pub use memory::BufferUse;
+pub use pass::PassBuilder;
 pub use raster::{DEPTH_FORMAT, RasterKernel, RasterTarget};
-pub use recorder::{PassBuilder, Recorder, Uniform};
+pub use recorder::{Recorder, Uniform};
 pub use reflect::parse;
 pub use texture::GpuTexture;
 
@@ -52,10 +60,9 @@ pub struct Gpu {
     default_workgroup_size: Option<u32>,
     kernels: Mutex<HashMap<KernelKey, Arc<Kernel>>>,
     raster_kernels: Mutex<HashMap<(&'static str, &'static str), Arc<RasterKernel>>>,
-    registry: buffer::Registry,
+    registry: memory::Registry,
     serial: AtomicU64,
     counters: Mutex<Counters>,
-    timings: Mutex<Vec<KernelTiming>>,
     scratch: Mutex<Vec<encode::Scratch>>,
     health: Arc<Health>,
 }
@@ -94,22 +101,8 @@ impl Gpu {
         lock(&self.counters).clone()
     }
 
-    /// Live buffers in the order they were made.
-    pub fn memory(&self) -> Vec<BufferUse> {
-        lock(&self.registry).values().cloned().collect()
-    }
-
-    /// Times of the jobs that finished since the last call, in pass order.
-    pub fn take_timings(&self) -> Vec<KernelTiming> {
-        std::mem::take(&mut *lock(&self.timings))
-    }
-
     fn counted(&self, count: impl FnOnce(&mut Counters)) {
         count(&mut lock(&self.counters));
-    }
-
-    fn next_serial(&self) -> u64 {
-        self.serial.fetch_add(1, Ordering::Relaxed)
     }
 }
 

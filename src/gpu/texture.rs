@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::buffer::{BufferUse, Registry};
-use super::{Gpu, GpuError, lock};
+use super::memory::Reserved;
+use super::{Gpu, GpuError};
 
 /// A shared handle to a 2-D texture and its full view.
 #[derive(Clone, Debug)]
@@ -13,8 +13,7 @@ pub struct GpuTexture(Arc<Inner>);
 struct Inner {
     raw: wgpu::Texture,
     view: wgpu::TextureView,
-    serial: u64,
-    registry: Registry,
+    _reserved: Reserved,
 }
 
 impl GpuTexture {
@@ -32,12 +31,6 @@ impl GpuTexture {
     }
 }
 
-impl Drop for Inner {
-    fn drop(&mut self) {
-        lock(&self.registry).remove(&self.serial);
-    }
-}
-
 impl Gpu {
     /// A texture, listed in [`Gpu::memory`] while it lives.
     pub fn texture(&self, descriptor: &wgpu::TextureDescriptor<'_>) -> Result<GpuTexture, GpuError> {
@@ -47,12 +40,11 @@ impl Gpu {
             let cause = format!("{} x {} pixels; a texture has 1 to {limit} a side", size.width, size.height);
             return Err(self.refused(&format!("texture \"{label}\""), &cause));
         }
-        let raw = self.checked(label, || self.device.create_texture(descriptor))?;
         let bytes = (0..descriptor.mip_level_count).map(|level| level_bytes(descriptor, level)).sum();
-        let serial = self.next_serial();
-        lock(&self.registry).insert(serial, BufferUse { label: label.to_owned(), bytes });
+        let reserved = self.reserve(label, bytes)?;
+        let raw = self.allocated(label, bytes, || self.device.create_texture(descriptor))?;
         let view = raw.create_view(&wgpu::TextureViewDescriptor::default());
-        Ok(GpuTexture(Arc::new(Inner { raw, view, serial, registry: Arc::clone(&self.registry) })))
+        Ok(GpuTexture(Arc::new(Inner { raw, view, _reserved: reserved })))
     }
 
     /// All bytes of the finest level, rows from the top without padding. Blocks until submitted work

@@ -2,10 +2,13 @@
 
 use std::time::Duration;
 
-use octolume::gpu::{Gpu, GpuBuffer, GpuError, Job, JobState, Recorder};
+use octolume::gpu::{Gpu, GpuBuffer, GpuError, Job, JobState, KernelTiming, Recorder};
 use wgpu::BufferUsages;
 
 use crate::device::{gpu, open};
+
+const WHOLE: Duration = Duration::from_millis(200);
+const SLICED: Duration = Duration::from_millis(1);
 
 const HEADER: &str = "
     #import shared/threads.wgsl
@@ -40,23 +43,24 @@ fn words(gpu: &Gpu, buffer: &GpuBuffer) -> Vec<u32> {
     gpu.read(buffer, 0..buffer.bytes()).expect("readable")
 }
 
-fn visits(gpu: &Gpu, threads: u64, workgroup_size: u32, budget: Option<Duration>) -> (Vec<u32>, usize) {
+/// Runs a job in slices; the number of polls before it was done.
+pub fn run_sliced(job: &mut Job, gpu: &Gpu, budget: Duration) -> usize {
+    let mut polls = 0;
+    while job.advance(gpu, budget).expect("runs") != JobState::Done {
+        polls += 1;
+        std::thread::sleep(Duration::from_micros(200));
+    }
+    polls
+}
+
+fn visits(gpu: &Gpu, threads: u64, workgroup_size: u32, budget: Duration) -> (Vec<u32>, usize, Vec<KernelTiming>) {
     let kernel = gpu.kernel_from_source("visit", &visit_source(), &[("WORKGROUP_SIZE", f64::from(workgroup_size))]);
     let buffer = gpu.buffer("visits", threads * 4, BufferUsages::empty()).expect("fits");
     let mut recorder = Recorder::default();
     recorder.pass(&kernel).bind("visits", &buffer).dispatch(threads);
     let mut job = Job::new(recorder);
-    let mut polls = 0;
-    match budget {
-        None => job.run_to_end(gpu).expect("runs"),
-        Some(budget) => {
-            while job.advance(gpu, budget).expect("runs") != JobState::Done {
-                polls += 1;
-                std::thread::sleep(Duration::from_micros(200));
-            }
-        }
-    }
-    (words(gpu, &buffer), polls)
+    let polls = run_sliced(&mut job, gpu, budget);
+    (words(gpu, &buffer), polls, job.take_timings())
 }
 
 #[test]
@@ -91,7 +95,7 @@ fn clears_only_what_is_asked() {
 
 #[test]
 fn five_million_threads_are_folded_and_run_once_each() {
-    let (visits, _) = visits(gpu(), 5_000_001, 64, None);
+    let (visits, ..) = visits(gpu(), 5_000_001, 64, WHOLE);
     assert!(visits.iter().all(|&count| count == 1));
 }
 
@@ -99,7 +103,7 @@ fn five_million_threads_are_folded_and_run_once_each() {
 fn every_workgroup_size_runs_every_thread_once() {
     for size in [32, 64, 128, 256] {
         for threads in [0, 1, u64::from(size) - 1, u64::from(size), u64::from(size) + 1, 100_003] {
-            let (visits, _) = visits(gpu(), threads, size, None);
+            let (visits, ..) = visits(gpu(), threads, size, WHOLE);
             assert!(visits[..threads as usize].iter().all(|&count| count == 1), "{threads} threads, {size} a group");
             assert!(visits[threads as usize..].iter().all(|&count| count == 0), "{threads} threads, {size} a group");
         }
@@ -108,8 +112,8 @@ fn every_workgroup_size_runs_every_thread_once() {
 
 #[test]
 fn slices_give_what_one_dispatch_gives() {
-    let whole = visits(gpu(), 1_000_003, 64, None).0;
-    let (sliced, polls) = visits(gpu(), 1_000_003, 64, Some(Duration::from_millis(1)));
+    let whole = visits(gpu(), 1_000_003, 64, WHOLE).0;
+    let (sliced, polls, _) = visits(gpu(), 1_000_003, 64, SLICED);
     assert_eq!(whole, sliced);
     assert!(polls >= 3, "a budget of 1 ms takes several slices");
 }
@@ -139,15 +143,13 @@ fn many_passes_keep_their_own_uniforms_and_order() {
 fn counters_count_recorded_passes_and_timings_follow_them() {
     let gpu = open();
     let before = gpu.counters();
-    visits(&gpu, 1_000_000, 64, Some(Duration::from_millis(1)));
+    let (.., timings) = visits(&gpu, 1_000_000, 64, SLICED);
     let after = gpu.counters();
     assert_eq!(after.dispatches.get("visit"), Some(&1));
     assert_eq!((after.pipelines - before.pipelines, after.buffers - before.buffers), (1, 1));
-    let timings = gpu.take_timings();
     assert_eq!(timings.len(), 1);
     assert_eq!((timings[0].kernel.as_str(), timings[0].threads), ("visit", 1_000_000));
     assert!(timings[0].ms > 0.0);
-    assert!(gpu.take_timings().is_empty());
 }
 
 #[test]

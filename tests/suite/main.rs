@@ -36,6 +36,8 @@ mod extensions;
 mod furnace;
 mod gpu;
 mod gpu_errors;
+mod gpu_memory;
+mod gpu_reads;
 mod hard_cases;
 mod hidden;
 mod illegal_files;

@@ -155,8 +155,7 @@ impl Bench {
         for run in 0..self.warmup + self.runs {
             let mut recorder = Recorder::default();
             copy::record(gpu, &mut recorder, &original, &duplicate, bytes);
-            Job::new(recorder).run_to_end(gpu)?;
-            let ms = gpu.take_timings().iter().map(|timing| timing.ms).sum();
+            let ms = Job::new(recorder).run_to_end(gpu)?.iter().map(|timing| timing.ms).sum();
             if run >= self.warmup {
                 samples.ms.push(ms);
             }
