@@ -20,7 +20,7 @@ override WORKGROUP_SIZE: u32 = 64u;
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    if thread >= min(threads.end, level_node_count(params.level)) {
         return;
     }
     let level = octree.levels[params.level];

@@ -50,7 +50,7 @@ fn node_ahead(block: u32, child: u32, axis: u32, ahead: u32) -> u32 {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let block = thread_index(id, groups);
-    if block >= threads.end {
+    if block >= min(threads.end, octree.block_count) {
         return;
     }
     let level = level_of(block);

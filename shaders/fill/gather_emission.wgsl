@@ -57,7 +57,7 @@ fn add_range(before: EmissionSum, range: vec2<u32>, leaf: u32, block_cell: vec3<
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let block = thread_index(id, groups);
-    if block >= threads.end {
+    if block >= min(threads.end, octree.leaf_block_count) {
         return;
     }
     let block_cell = vec3<i32>(morton_cell(block_keys[octree.levels[octree.depth - 1u].first_block + block]));

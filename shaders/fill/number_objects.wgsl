@@ -29,7 +29,7 @@ fn claim(cell: vec3<i32>, weight: u32, object: u32) {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    if thread >= threads.end || octree.leaf_block_count == 0u {
         return;
     }
     let item = work_item(thread);

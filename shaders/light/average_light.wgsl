@@ -74,7 +74,7 @@ fn axis_opacity(o: array<vec3<f32>, 8>) -> vec3<f32> {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    if thread >= min(threads.end, level_node_count(params.level)) {
         return;
     }
     let node = octree.levels[params.level].first_node + thread;

@@ -62,7 +62,7 @@ fn leaf_irradiance(centre: vec3<f32>, packed_normal: u32) -> vec3<f32> {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let block = thread_index(id, groups);
-    if block >= threads.end {
+    if block >= min(threads.end, octree.leaf_block_count) {
         return;
     }
     let key = block_keys[octree.levels[octree.depth - 1u].first_block + block];

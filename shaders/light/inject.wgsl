@@ -27,7 +27,7 @@ override IRRADIANCE: bool = false;
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let slot = thread_index(id, groups);
-    if slot >= threads.end {
+    if slot >= min(threads.end, octree.leaf_count) {
         return;
     }
     let opacity = f32(leaves[3u * slot]) / f32(FULL_WEIGHT);

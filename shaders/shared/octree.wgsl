@@ -1,6 +1,9 @@
 // The octree's index arithmetic; data::octree draws the layout. A kernel declares those of the
 // buffers `occupied`, `blocks`, `ranks` that it looks into.
 //
+// `octree` tells the truth; more threads may run than it counts, and end there. Without leaf blocks there is
+// no octree, or no room for it: nothing may be written by rank.
+//
 //   occupied  one bit a node, levels 0 ..= depth − 1: truly occupied, O(l)
 //   blocks    one bit a node, levels dense ..= depth − 1: its 8 children are allocated, A(l)
 //   ranks     exclusive prefix sum of the set bits of `blocks`, a number a word
@@ -30,6 +33,15 @@ struct OctreeParams {
     dense_node_count: u32,
     pad: u32,
     levels: array<OctreeLevel, 12>,
+}
+
+// Nodes stored at an inner level, dummies included.
+fn level_node_count(level: u32) -> u32 {
+    var end = octree.inner_node_count;
+    if level + 1u < octree.depth {
+        end = octree.levels[level + 1u].first_node;
+    }
+    return end - octree.levels[level].first_node;
 }
 
 fn grid_cells() -> i32 {

@@ -3,6 +3,7 @@
 pub mod grid;
 pub mod light;
 pub mod octree;
+pub mod octree_buffers;
 pub mod packing;
 pub mod pages;
 pub mod slot;

@@ -1,4 +1,4 @@
-//! The partly dense sparse voxel octree (section 4.3): index arithmetic and the buffers.
+//! The partly dense sparse voxel octree (section 4.3): index arithmetic; `octree_buffers` holds it.
 //!
 //! ```text
 //! level 0 … dense     nodes stored densely, in Morton order
@@ -11,6 +11,7 @@
 //! block_keys  Morton key of the node above each block, all levels in order
 //! first_child 1 word an inner node: index of its first child, 0 = none
 //! nodes       4 words an inner node, see shaders/shared/node.wgsl
+//! block_counts  2 words a leaf block: its sorted voxels (in the topology's 0, the payload counts), its leaves
 //! block_starts  2 words a leaf block: its first sorted voxel, its first leaf; totals at the end
 //! leaves      3 words an *occupied* leaf: occupancy (2^24 = full), albedo rgb8, normal 10|10|10
 //! neighbours  3 words a block: rank of the block ahead along x, y, z; NO_BLOCK = none (section 4.4)
@@ -22,6 +23,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
+pub use super::octree_buffers::{MaskBuffers, OctreeRef, OctreeSizes, PayloadBuffers, TopologyBuffers};
 pub use super::slot::Slot;
 
 /// Weight of a voxel that lies wholly in one cell: 2^(3k), k = 8 fraction bits an axis.
@@ -36,6 +38,9 @@ pub const NO_BLOCK: u32 = u32::MAX;
 pub const ALBEDO_NODE_SCALE: u32 = 4;
 /// Voxels that one thread may sum in two 12-bit halves without a carry: 1024 · 4096 · 1022 < 2^32.
 pub const MAX_FRAGMENTS: u32 = 1024;
+
+/// What a prediction adds to each count, beside a share.
+pub const ROOM: u32 = 64;
 
 const LEVEL_SLOTS: usize = 12;
 
@@ -120,6 +125,26 @@ impl OctreeParams {
         self
     }
 
+    /// A prediction from exact sizes: room for an eighth and [`ROOM`] more blocks of each level, and leaves.
+    pub fn with_room(&self) -> Self {
+        let roomy = |count: u32, most: u32| count.saturating_add(count / 8).saturating_add(ROOM).min(most);
+        let mut firsts = vec![0];
+        for level in self.dense_level..self.depth {
+            // A level has no more blocks than it has nodes.
+            let blocks = roomy(self.block_count_of(level), 1 << (3 * level));
+            firsts.push(firsts[firsts.len() - 1] + blocks);
+        }
+        self.with_counts(&firsts, roomy(self.leaf_count, 1 << (3 * self.depth)))
+    }
+
+    /// Whether an octree of these sizes has place in one of those.
+    pub fn fits(&self, room: &Self) -> bool {
+        let mut levels = self.dense_level..self.depth;
+        (self.depth, self.dense_level) == (room.depth, room.dense_level)
+            && levels.all(|level| self.block_count_of(level) <= room.block_count_of(level))
+            && self.leaf_count <= room.leaf_count
+    }
+
     /// Nodes stored at a level, dummies included; level `depth` is the leaves.
     pub fn node_count(&self, level: u32) -> u32 {
         if level <= self.dense_level { 1 << (3 * level) } else { 8 * self.block_count_of(level - 1) }
@@ -154,27 +179,4 @@ impl PointerLayout {
         };
         a_block * u64::from(octree.block_count)
     }
-}
-
-/// The buffers of one octree. They grow with what is built and are kept for the next build.
-#[derive(Debug, Default)]
-pub struct OctreeBuffers {
-    pub leaf_bits: Slot,
-    pub occupied: Slot,
-    pub blocks: Slot,
-    pub ranks: Slot,
-    pub counters: Slot,
-    pub block_keys: Slot,
-    pub first_child: Slot,
-    pub nodes: Slot,
-    pub block_counts: Slot,
-    pub block_starts: Slot,
-    pub leaves: Slot,
-    pub leaf_objects: Slot,
-    pub neighbours: Slot,
-    pub node_neighbours: Slot,
-    pub places: Slot,
-    pub sorted_voxels: Slot,
-    pub heavy_blocks: Slot,
-    pub scan_sums: Vec<Slot>,
 }

@@ -1,9 +1,10 @@
 //! One octree from mark to root: what is recorded before its sizes are known, and after.
 
-use crate::data::octree::{MAX_FRAGMENTS, OctreeBuffers, OctreeParams, Slot};
-use crate::data::pages::WORLD_VOXEL_BYTES;
+use crate::data::octree::{
+    MaskBuffers, OctreeParams, OctreeRef, OctreeSizes, PayloadBuffers, PointerLayout, Slot, TopologyBuffers,
+};
 use crate::gpu::{Gpu, GpuBuffer, GpuError, KernelTiming, Recorder};
-use crate::settings::Filter;
+use crate::settings::{Filter, Lookup};
 use crate::stages::averaging::average;
 use crate::stages::build::emit::Emitted;
 use crate::stages::build::link::Linked;
@@ -11,7 +12,18 @@ use crate::stages::build::reduce::Masks;
 use crate::stages::build::scan::{self, Scanned};
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, emit, mark, reduce};
 use crate::stages::fill::{Filling, count, gather, gather_heavy, number_objects, place};
+use crate::stages::sample::pointer_layout;
 use crate::stages::transform::MovingVoxels;
+
+#[derive(Debug, Default)]
+pub struct OctreeBuffers {
+    pub masks: MaskBuffers,
+    pub topology: TopologyBuffers,
+    pub payload: PayloadBuffers,
+    pub leaf_objects: Slot,
+    pub neighbours: Slot,
+    pub node_neighbours: Slot,
+}
 
 /// An octree and what was learned while building it.
 #[derive(Debug, Default)]
@@ -19,6 +31,7 @@ pub struct BuiltOctree {
     pub params: OctreeParams,
     pub filter: Filter,
     pub buffers: OctreeBuffers,
+    sized: Option<OctreeSizes>,
     /// First blocks of levels dense … depth−1, the total, then the 64-bit counters.
     sizes: Slot,
     /// Leaves that hold anything, per level from the root to the leaves.
@@ -42,16 +55,17 @@ impl BuiltOctree {
         self.params = OctreeParams::new(depth, dense_level);
         self.filter = filter;
         let octree = self.params;
-        let b = &mut self.buffers;
+        let sized = &*self.sized.insert(OctreeSizes::upload(gpu, &octree)?);
+        let b = &mut self.buffers.masks;
         let masks = Masks {
             leaf_bits: b.leaf_bits.ensure(gpu, "leaf bits", (1_u64 << (3 * depth)) / 8)?,
             occupied: b.occupied.ensure(gpu, "occupied masks", 4 * u64::from(octree.occupied_words()))?,
             blocks: b.blocks.ensure(gpu, "block masks", 4 * u64::from(octree.blocks_words()))?,
             counters: b.counters.ensure(gpu, "counters", 8 * u64::from(COUNTERS))?,
         };
-        mark::record(gpu, &mut frame, voxels, &octree, filter, &masks.leaf_bits, &masks.counters);
+        mark::record(gpu, &mut frame, voxels, sized, filter, &masks.leaf_bits, &masks.counters);
         for level in (0..depth).rev() {
-            reduce::record(gpu, &mut frame, &octree, &masks, level);
+            reduce::record(gpu, &mut frame, sized, &masks, level);
         }
         let words = octree.blocks_words();
         let ranks = b.ranks.ensure(gpu, "block ranks", 4 * u64::from(words + 1))?;
@@ -93,83 +107,66 @@ impl BuiltOctree {
     /// Emits the nodes, sorts and gathers the voxels, averages to the root.
     pub fn record_nodes(&mut self, gpu: &Gpu, voxels: &MovingVoxels) -> Result<Recorder, GpuError> {
         let mut frame = Recorder::default();
-        let octree = self.params;
-        let (leaf_bits, blocks, ranks) = self.masks()?;
-        let out = self.emitted(gpu)?;
-        let fill = self.filling(gpu, voxels, &out)?;
-        frame.clear(&out.first_child);
-        frame.clear(&fill.nodes);
-        for level in octree.dense_level..octree.depth {
-            emit::record(gpu, &mut frame, &octree, (&blocks, &ranks, &leaf_bits), &out, level);
+        let octree = &*self.sized.insert(OctreeSizes::upload(gpu, &self.params)?);
+        let b = &mut self.buffers;
+        let out = Emitted::new(gpu, octree, &mut b.topology)?;
+        let fill = Filling::new(gpu, octree, &b.masks, &b.topology, &mut b.payload, voxels.threads())?;
+        let leaf_bits = b.masks.leaf_bits.made("leaf bits")?;
+        emit::record_start(&mut frame, octree, &out);
+        for level in octree.params.dense_level..octree.params.depth {
+            emit::record(gpu, &mut frame, octree, (&fill.blocks, &fill.ranks, &leaf_bits), &out, level);
         }
-        count::record(gpu, &mut frame, voxels, &octree, self.filter, &fill);
-        let pairs = (Scanned::Pairs, octree.leaf_block_count);
-        scan::record(gpu, &mut frame, pairs, &fill.block_counts, &fill.block_starts, &mut self.buffers.scan_sums)?;
+        fill.record_start(&mut frame, octree, &b.topology)?;
+        count::record(gpu, &mut frame, voxels, octree, self.filter, &fill);
+        let pairs = (Scanned::Pairs, octree.params.leaf_block_count);
+        scan::record(gpu, &mut frame, pairs, &fill.block_counts, &fill.block_starts, &mut b.payload.scan_sums)?;
         place::record(gpu, &mut frame, voxels, &fill);
-        frame.clear(&fill.heavy_blocks);
-        gather::record(gpu, &mut frame, &octree, self.filter, &fill);
-        gather_heavy::record(gpu, &mut frame, &octree, self.filter, &fill);
-        for level in (0..octree.depth - 1).rev() {
-            average::record(gpu, &mut frame, &octree, &out.first_child, &fill.nodes, level);
+        gather::record(gpu, &mut frame, voxels, octree, self.filter, &fill);
+        gather_heavy::record(gpu, &mut frame, octree, self.filter, &fill);
+        for level in (0..octree.params.depth - 1).rev() {
+            average::record(gpu, &mut frame, octree, &out.first_child, &fill.nodes, level);
         }
         Ok(frame)
     }
 
     pub fn record_object_numbers(&mut self, gpu: &Gpu, voxels: &MovingVoxels) -> Result<Recorder, GpuError> {
         let mut frame = Recorder::default();
-        let (leaf_bits, ..) = self.masks()?;
-        let fill = self.filled(gpu, voxels)?;
+        let fill = self.filled()?;
+        let leaf_bits = self.buffers.masks.leaf_bits.made("leaf bits")?;
         let objects = self.buffers.leaf_objects.ensure(gpu, "leaf objects", 4 * u64::from(self.params.leaf_count))?;
-        let octree = (&self.params, self.filter);
+        let octree = (self.sizes_on_gpu()?, self.filter);
         number_objects::record(gpu, &mut frame, voxels, octree, &fill, (&leaf_bits, &objects));
         Ok(frame)
     }
 
     /// The buffers of a finished filling.
-    pub fn filled(&mut self, gpu: &Gpu, voxels: &MovingVoxels) -> Result<Filling, GpuError> {
-        let out = self.emitted(gpu)?;
-        self.filling(gpu, voxels, &out)
+    pub fn filled(&self) -> Result<Filling, GpuError> {
+        Filling::made(self.octree()?)
+    }
+
+    pub fn sizes_on_gpu(&self) -> Result<&OctreeSizes, GpuError> {
+        self.sized.as_ref().ok_or_else(|| GpuError::Missing { label: "octree sizes".to_owned() })
+    }
+
+    pub fn octree(&self) -> Result<OctreeRef<'_>, GpuError> {
+        let OctreeBuffers { masks, topology, payload, .. } = &self.buffers;
+        Ok(OctreeRef { sizes: self.sizes_on_gpu()?, masks, topology, payload })
+    }
+
+    pub fn pointers(&self, lookup: Lookup) -> Option<&GpuBuffer> {
+        match pointer_layout(lookup)? {
+            PointerLayout::Blocks => self.buffers.neighbours.get(),
+            PointerLayout::Nodes => self.buffers.node_neighbours.get(),
+        }
     }
 
     /// What neighbour pointers are made from.
     pub fn linked(&self) -> Result<Linked, GpuError> {
-        let (_, blocks, ranks) = self.masks()?;
-        Ok(Linked { blocks, ranks, block_keys: self.buffers.block_keys.made("block keys")? })
-    }
-
-    fn masks(&self) -> Result<(GpuBuffer, GpuBuffer, GpuBuffer), GpuError> {
-        let b = &self.buffers;
-        Ok((b.leaf_bits.made("leaf bits")?, b.blocks.made("block masks")?, b.ranks.made("block ranks")?))
-    }
-
-    fn emitted(&mut self, gpu: &Gpu) -> Result<Emitted, GpuError> {
-        let octree = &self.params;
-        let b = &mut self.buffers;
-        Ok(Emitted {
-            block_keys: b.block_keys.ensure(gpu, "block keys", 4 * u64::from(octree.block_count))?,
-            first_child: b.first_child.ensure(gpu, "child pointers", 4 * u64::from(octree.inner_node_count))?,
-            block_counts: b.block_counts.ensure(gpu, "block counts", 8 * u64::from(octree.leaf_block_count))?,
-        })
-    }
-
-    fn filling(&mut self, gpu: &Gpu, voxels: &MovingVoxels, out: &Emitted) -> Result<Filling, GpuError> {
-        let (_, blocks, ranks) = self.masks()?;
-        let octree = &self.params;
-        let b = &mut self.buffers;
-        let threads = u64::from(voxels.threads());
-        // Each voxel is a source of at most 8 blocks, each heavy one has more than MAX_FRAGMENTS.
-        let heavy = 1 + 8 * threads / u64::from(MAX_FRAGMENTS);
-        Ok(Filling {
-            blocks,
-            ranks,
-            block_keys: out.block_keys.clone(),
-            block_counts: out.block_counts.clone(),
-            block_starts: b.block_starts.ensure(gpu, "block starts", 8 * u64::from(octree.leaf_block_count + 1))?,
-            places: b.places.ensure(gpu, "sorting places", 8 * threads)?,
-            sorted_voxels: b.sorted_voxels.ensure(gpu, "sorted voxels", WORLD_VOXEL_BYTES * threads)?,
-            leaves: b.leaves.ensure(gpu, "leaves", 12 * u64::from(octree.leaf_count))?,
-            nodes: b.nodes.ensure(gpu, "nodes", 16 * u64::from(octree.inner_node_count))?,
-            heavy_blocks: b.heavy_blocks.ensure(gpu, "heavy blocks", 4 * (1 + heavy))?,
+        let OctreeBuffers { masks, topology, .. } = &self.buffers;
+        Ok(Linked {
+            blocks: masks.blocks.made("block masks")?,
+            ranks: masks.ranks.made("block ranks")?,
+            block_keys: topology.block_keys.made("block keys")?,
         })
     }
 

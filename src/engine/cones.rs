@@ -136,7 +136,7 @@ impl Engine {
     fn sampled_by_cones(&self, wanted: &Wanted) -> Result<SampledOctree, GpuError> {
         let light = self.light.buffers.light.made("light")?;
         let lookup = wanted.settings.cone_tracing.lookup;
-        SampledOctree::new(&self.shown.params, &self.shown.buffers, &light, lookup)
+        SampledOctree::new(self.shown.octree()?, &light, lookup, self.shown.pointers(lookup))
     }
 }
 

@@ -84,7 +84,7 @@ impl LitBy {
 
 impl Engine {
     pub(super) fn lit_octree(&self) -> Result<LitOctree, GpuError> {
-        LitOctree::new(&self.shown.params, &self.shown.buffers)
+        LitOctree::new(self.shown.octree()?)
     }
 
     pub(super) fn record_emission(&mut self) -> Result<Recorder, EngineError> {
@@ -93,10 +93,10 @@ impl Engine {
         let gpu = Arc::clone(&self.gpu);
         let scene = self.scene.as_ref().ok_or(EngineError::NoScene)?;
         let cache_emission = scene.cache_emission().ok_or_else(|| missing("cache emission"))?.clone();
-        let fill = self.shown.filled(&gpu, &voxels)?;
-        let octree = self.shown.params;
+        let fill = self.shown.filled()?;
+        let octree = self.shown.sizes_on_gpu()?.clone();
         let emission = Emission::new(&gpu, &mut self.light.buffers, &octree, (cache_emission, voxels.threads()))?;
-        place_emission::record(&gpu, &mut frame, &voxels, &fill, &emission);
+        place_emission::record(&gpu, &mut frame, &voxels, &octree, &fill, &emission);
         gather_emission::record(&gpu, &mut frame, &octree, self.shown.filter, &fill, &emission);
         Ok(frame)
     }
@@ -108,7 +108,7 @@ impl Engine {
         let octree = self.lit_octree()?;
         let grid = self.prepared.as_ref().ok_or(EngineError::NoScene)?.grid;
         let lighting = &wanted.settings.lighting;
-        let bytes = IRRADIANCE_BYTES * u64::from(octree.params.leaf_count);
+        let bytes = IRRADIANCE_BYTES * u64::from(octree.sizes.params.leaf_count);
         let gpu = &self.gpu;
         let direct = self.light.buffers.direct.ensure(gpu, "direct irradiance", bytes)?;
         frame.clear(&direct);
@@ -130,7 +130,7 @@ impl Engine {
         let mut frame = Recorder::default();
         let octree = self.lit_octree()?;
         let opacity = wanted.settings.lighting.opacity;
-        let light = self.light.buffers.light.ensure(&self.gpu, "light", light_bytes(&octree.params, opacity))?;
+        let light = self.light.buffers.light.ensure(&self.gpu, "light", light_bytes(&octree.sizes.params, opacity))?;
         let from = self.injected(wanted, bounced)?;
         inject::record(&self.gpu, &mut frame, &octree, from.as_ref(), &light);
         average_light::record(&self.gpu, &mut frame, &octree, opacity, &light);
@@ -142,8 +142,11 @@ impl Engine {
         let mut frame = Recorder::default();
         let octree = self.lit_octree()?;
         let opacity = wanted.settings.lighting.opacity;
-        let shown =
-            self.light.buffers.shown.ensure(&self.gpu, "shown irradiance", light_bytes(&octree.params, opacity))?;
+        let shown = self.light.buffers.shown.ensure(
+            &self.gpu,
+            "shown irradiance",
+            light_bytes(&octree.sizes.params, opacity),
+        )?;
         let from = self.injected(wanted, wanted.settings.lighting.bounces > 0)?;
         inject::record_irradiance(&self.gpu, &mut frame, &octree, from.as_ref(), &shown);
         average_light::record(&self.gpu, &mut frame, &octree, opacity, &shown);

@@ -83,7 +83,7 @@ impl Engine {
     ) -> Result<(), EngineError> {
         let octree = self.lit_octree()?;
         let light = self.light.stored(stored(&wanted.settings)).made("light")?;
-        let view = ViewParams::new(rays, &wanted.settings.look, octree.params.depth);
+        let view = ViewParams::new(rays, &wanted.settings.look, octree.sizes.params.depth);
         let factor = self.exposure() as f32;
         march_light::record(&self.gpu, frame, &octree, (&light, factor), &view, picture);
         Ok(())
@@ -98,7 +98,8 @@ impl Engine {
         let look = &wanted.settings.look;
         let octree = &self.shown;
         let light = self.light.stored(stored(&wanted.settings)).made("light")?;
-        let sampled = SampledOctree::new(&octree.params, &octree.buffers, &light, look.slice.lookup)?;
+        let sampled =
+            SampledOctree::new(octree.octree()?, &light, look.slice.lookup, octree.pointers(look.slice.lookup))?;
         let view = ViewParams::new(rays, look, octree.params.depth);
         let range = self.slice_range(&wanted.settings);
         let palette = Palette::new(look.slice.value.color());

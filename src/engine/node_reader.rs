@@ -4,9 +4,10 @@
 
 use bytemuck::Pod;
 
+use super::built_octree::OctreeBuffers;
 use super::inspect::NodeAddress;
 use crate::data::grid::{morton_cell, morton_key};
-use crate::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, NO_BLOCK, OctreeBuffers, OctreeParams, Slot};
+use crate::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, NO_BLOCK, OctreeParams, Slot};
 use crate::data::packing::{unpack_normal, unpack_position, unpack_rgba8};
 use crate::gpu::{Gpu, GpuError};
 
@@ -41,12 +42,12 @@ impl NodeReader<'_> {
     /// Rank of the block that holds the children of a node of `level`, over all levels.
     fn block_of(&self, level: u32, key: u32) -> Result<Option<u32>, GpuError> {
         let word = self.octree.levels[level as usize].blocks_word + (key >> 5);
-        let mask = self.word(&self.buffers.blocks, "block masks", word)?;
+        let mask = self.word(&self.buffers.masks.blocks, "block masks", word)?;
         if mask >> (key & 31) & 1 == 0 {
             return Ok(None);
         }
         let below = mask & ((1 << (key & 31)) - 1);
-        Ok(Some(self.word(&self.buffers.ranks, "block ranks", word)? + below.count_ones()))
+        Ok(Some(self.word(&self.buffers.masks.ranks, "block ranks", word)? + below.count_ones()))
     }
 
     /// `None` where no node is stored. The address is in the grid.
@@ -68,7 +69,7 @@ impl NodeReader<'_> {
     /// Where a node lies, as its block says.
     pub fn address_of(&self, level: u32, index: u32) -> Result<NodeAddress, GpuError> {
         let key = match self.place(level, index) {
-            Some((block, child)) => 8 * self.word(&self.buffers.block_keys, "block keys", block)? + child,
+            Some((block, child)) => 8 * self.word(&self.buffers.topology.block_keys, "block keys", block)? + child,
             None => index - self.octree.levels[level as usize].first_node,
         };
         Ok(NodeAddress { level, cell: morton_cell(key) })
@@ -97,10 +98,10 @@ impl NodeReader<'_> {
     pub fn is_occupied(&self, address: NodeAddress) -> Result<bool, GpuError> {
         let key = morton_key(address.cell);
         let word = if address.level == self.octree.depth {
-            self.word(&self.buffers.leaf_bits, "leaf bits", key >> 5)?
+            self.word(&self.buffers.masks.leaf_bits, "leaf bits", key >> 5)?
         } else {
             let first = self.octree.levels[address.level as usize].occupied_word;
-            self.word(&self.buffers.occupied, "occupied masks", first + (key >> 5))?
+            self.word(&self.buffers.masks.occupied, "occupied masks", first + (key >> 5))?
         };
         Ok(word >> (key & 31) & 1 == 1)
     }
@@ -116,7 +117,7 @@ impl NodeReader<'_> {
             let key = index - levels[level as usize].first_node;
             return Ok(Some(levels[level as usize + 1].first_node + 8 * key));
         }
-        let child = self.word(&self.buffers.first_child, "child pointers", index)?;
+        let child = self.word(&self.buffers.topology.first_child, "child pointers", index)?;
         Ok((child != 0).then_some(child))
     }
 
@@ -125,13 +126,14 @@ impl NodeReader<'_> {
         let octree = self.octree;
         if address.level == octree.depth {
             let slot = self.leaf_slot(address, index)?;
-            let [occupancy, albedo, normal]: [u32; 3] = self.read(&self.buffers.leaves, "leaves", slot.into())?;
+            let [occupancy, albedo, normal]: [u32; 3] =
+                self.read(&self.buffers.payload.leaves, "leaves", slot.into())?;
             let [r, g, b, _] = unpack_rgba8(albedo);
             let occupancy = f64::from(occupancy) / f64::from(FULL_WEIGHT);
             let normal = unpack_normal(normal).to_array();
             return Ok((octree.inner_node_count + slot, Payload { occupancy, albedo: [r, g, b], normal }));
         }
-        let [low, high, albedo, normal]: [u32; 4] = self.read(&self.buffers.nodes, "nodes", index.into())?;
+        let [low, high, albedo, normal]: [u32; 4] = self.read(&self.buffers.payload.nodes, "nodes", index.into())?;
         let sum = f64::from(high) * 2_f64.powi(32) + f64::from(low);
         let full = f64::from(FULL_WEIGHT) * 8_f64.powi((octree.depth - address.level) as i32);
         let albedo = unpack_position(albedo).map(|units| f64::from(units) / (255.0 * f64::from(ALBEDO_NODE_SCALE)));
@@ -143,8 +145,8 @@ impl NodeReader<'_> {
         let key = morton_key(address.cell);
         let first_leaf_block = self.octree.levels[self.octree.depth as usize - 1].first_block;
         let block = (index - self.octree.dense_node_count) / 8 - first_leaf_block;
-        let starts: [u32; 2] = self.read(&self.buffers.block_starts, "block starts", block.into())?;
-        let mask = self.word(&self.buffers.leaf_bits, "leaf bits", key >> 5)? >> (key & 24);
+        let starts: [u32; 2] = self.read(&self.buffers.payload.block_starts, "block starts", block.into())?;
+        let mask = self.word(&self.buffers.masks.leaf_bits, "leaf bits", key >> 5)? >> (key & 24);
         Ok(starts[1] + (mask & ((1 << (key & 7)) - 1)).count_ones())
     }
 }

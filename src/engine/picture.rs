@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::{Engine, EngineError, Wanted, missing};
 use crate::color::srgb_byte;
-use crate::data::octree::{OctreeParams, Slot};
+use crate::data::octree::{OctreeParams, OctreeSizes, Slot};
 use crate::gpu::{GpuError, GpuTexture, Recorder};
 use crate::settings::View;
 use crate::stages::build::COUNTERS;
@@ -33,6 +33,7 @@ impl Engine {
         let depth = self.shown.params.depth;
         let octree = OctreeParams::new(depth, depth - 1);
         let gpu = &self.gpu;
+        let sizes = OctreeSizes::upload(gpu, &octree)?;
         let own = &mut self.exact_masks;
         let masks = Masks {
             leaf_bits,
@@ -41,7 +42,7 @@ impl Engine {
             counters: own.counters.ensure(gpu, "exact counters", 8 * u64::from(COUNTERS))?,
         };
         for level in (0..depth).rev() {
-            reduce::record(gpu, &mut frame, &octree, &masks, level);
+            reduce::record(gpu, &mut frame, &sizes, &masks, level);
         }
         Ok(frame)
     }
@@ -66,7 +67,7 @@ impl Engine {
                 let leaves = crate::settings::Look { level: None, ..*look };
                 let view = ViewParams::new(&rays, &leaves, grid.depth);
                 let (moved, exact) = self.ghost_sets()?;
-                let octree = self.shown.params;
+                let octree = self.shown.sizes_on_gpu()?.clone();
                 ghost::record(&self.gpu, &mut frame, &octree, (&moved, &exact), (&view, &GHOST_COLORS), &picture);
             }
             View::Mesh => self.record_mesh(&mut frame, wanted, &picture)?,
@@ -109,12 +110,11 @@ impl Engine {
     }
 
     fn marched_octree(&self) -> Result<MarchedOctree, GpuError> {
-        let missing = || GpuError::Missing { label: "octree".to_owned() };
-        MarchedOctree::new(&self.shown.params, &self.shown.buffers).ok_or_else(missing)
+        MarchedOctree::new(self.shown.octree()?, self.shown.buffers.leaf_objects.get())
     }
 
     fn ghost_sets(&mut self) -> Result<(LeafSet, LeafSet), EngineError> {
-        let b = &self.shown.buffers;
+        let b = &self.shown.buffers.masks;
         let moved = LeafSet { leaf_bits: b.leaf_bits.made("leaf bits")?, occupied: b.occupied.made("occupied masks")? };
         let occupied = self.exact_masks.occupied.made("exact occupied masks")?;
         Ok((moved, LeafSet { leaf_bits: self.exact_bits()?, occupied }))

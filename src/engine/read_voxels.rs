@@ -32,8 +32,8 @@ impl Engine {
         }
         let octree = &self.shown.params;
         let b = &self.shown.buffers;
-        let leaf_bits: Vec<u32> = self.read_all(&b.leaf_bits, "leaf bits", (1 << (3 * octree.depth)) / 32)?;
-        let leaves: Vec<u32> = self.read_all(&b.leaves, "leaves", 3 * u64::from(octree.leaf_count))?;
+        let leaf_bits: Vec<u32> = self.read_all(&b.masks.leaf_bits, "leaf bits", (1 << (3 * octree.depth)) / 32)?;
+        let leaves: Vec<u32> = self.read_all(&b.payload.leaves, "leaves", 3 * u64::from(octree.leaf_count))?;
         // Leaves are stored in key order, so the set bits name them one after the other.
         let keys = leaf_bits.iter().enumerate().flat_map(|(word, &bits)| {
             (0..32).filter(move |bit| bits >> bit & 1 == 1).map(move |bit| 32 * word as u32 + bit)

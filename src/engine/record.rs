@@ -102,14 +102,14 @@ impl Engine {
 
     pub(super) fn record_links(&mut self, wanted: &Wanted) -> Result<Recorder, EngineError> {
         let mut frame = Recorder::default();
-        let octree = self.shown.params;
+        let octree = self.shown.sizes_on_gpu()?.clone();
         let linked = self.shown.linked()?;
         for layout in self.wanted_pointers(wanted) {
             let slot = match layout {
                 PointerLayout::Blocks => &mut self.shown.buffers.neighbours,
                 PointerLayout::Nodes => &mut self.shown.buffers.node_neighbours,
             };
-            let neighbours = slot.ensure(&self.gpu, "neighbour pointers", 4 * layout.words(&octree))?;
+            let neighbours = slot.ensure(&self.gpu, "neighbour pointers", 4 * layout.words(&octree.params))?;
             link::record(&self.gpu, &mut frame, &octree, &linked, (layout, &neighbours));
         }
         Ok(frame)
@@ -119,7 +119,7 @@ impl Engine {
         let mut frame = Recorder::default();
         let exact = self.exact_bits()?;
         let counts = self.counts_buffer()?;
-        let moved = self.octree(which).buffers.leaf_bits.made("leaf bits")?;
+        let moved = self.octree(which).buffers.masks.leaf_bits.made("leaf bits")?;
         compare_sets::record(&self.gpu, &mut frame, &moved, &exact, &counts);
         Ok(frame)
     }

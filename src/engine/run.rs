@@ -171,7 +171,7 @@ impl Engine {
                 Ok(Some(self.read(&buffer, bytes)?))
             }
             Step::Root(which) => {
-                let nodes = self.octree(which).buffers.nodes.made("nodes")?;
+                let nodes = self.octree(which).buffers.payload.nodes.made("nodes")?;
                 Ok(Some(self.read(&nodes, 8)?))
             }
             Step::Counts(_) => {

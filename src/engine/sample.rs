@@ -16,7 +16,8 @@ impl Engine {
         points: &[[f32; 4]],
     ) -> Result<(Vec<[f32; 4]>, Vec<KernelTiming>), EngineError> {
         let light = self.light.buffers.light.made("light")?;
-        let octree = SampledOctree::new(&self.shown.params, &self.shown.buffers, &light, sampler.lookup)?;
+        let octree =
+            SampledOctree::new(self.shown.octree()?, &light, sampler.lookup, self.shown.pointers(sampler.lookup))?;
         let buffer = self.gpu.upload("sample points", points)?;
         let params = PointParams::new(direction);
         let mut frame = Recorder::default();

@@ -2,8 +2,6 @@
 
 use glam::DVec3;
 use octolume::data::light::{EMISSION_MAX, LightBuffers, pack_emission};
-use octolume::data::octree::OctreeBuffers;
-use octolume::gpu::GpuBuffer;
 use octolume::settings::Filter;
 use octolume::stages::fill::gather_emission_ref;
 use octolume::stages::fill::gather_ref::Fragment;
@@ -16,7 +14,7 @@ use crate::device::gpu;
 use crate::light_rig::full;
 use crate::octree_rules as rules;
 use crate::random;
-use crate::stage_build::{Built, Shape};
+use crate::stage_build::{Built, OctreeBuffers, Shape};
 use crate::stage_rig::{World, read, run, upload, world_voxel};
 
 fn unpacked([low, high]: [u32; 2]) -> [u32; 3] {
@@ -38,35 +36,19 @@ struct Gathered {
     leaves: Vec<[f32; 3]>,
 }
 
-fn filling(buffers: &OctreeBuffers) -> Filling {
-    let made = |slot: &octolume::data::octree::Slot| -> GpuBuffer { slot.made("octree").expect("built") };
-    Filling {
-        blocks: made(&buffers.blocks),
-        ranks: made(&buffers.ranks),
-        block_keys: made(&buffers.block_keys),
-        block_counts: made(&buffers.block_counts),
-        block_starts: made(&buffers.block_starts),
-        places: made(&buffers.places),
-        sorted_voxels: made(&buffers.sorted_voxels),
-        leaves: made(&buffers.leaves),
-        nodes: made(&buffers.nodes),
-        heavy_blocks: made(&buffers.heavy_blocks),
-    }
-}
-
 fn gathered(voxels: &[Fragment], emission: &[[u32; 2]], filter: Filter) -> Gathered {
     let words: Vec<_> = voxels.iter().map(world_voxel).collect();
     let mut world = World::given(gpu(), &words);
     world.moving.parts = upload(gpu(), "parts", &[Part { emission_skew: 0, ..Part::default() }]);
     let mut buffers = OctreeBuffers::default();
     let built = world.build_in(gpu(), &Shape::new(5, 3, filter), &mut buffers);
-    let fill = filling(&buffers);
+    let fill = Filling::made(buffers.octree()).expect("built");
     let cache_emission = upload(gpu(), "cache emission", emission);
-    let mut light = LightBuffers::default();
-    let emission = Emission::new(gpu(), &mut light, &built.params, (cache_emission, world.list.threads)).expect("fits");
+    let (mut light, sizes) = (LightBuffers::default(), buffers.octree().sizes);
+    let emission = Emission::new(gpu(), &mut light, sizes, (cache_emission, world.list.threads)).expect("fits");
     run(gpu(), |frame| {
-        place_emission::record(gpu(), frame, &world.moving, &fill, &emission);
-        gather_emission::record(gpu(), frame, &built.params, filter, &fill, &emission);
+        place_emission::record(gpu(), frame, &world.moving, sizes, &fill, &emission);
+        gather_emission::record(gpu(), frame, sizes, filter, &fill, &emission);
     });
     let inside = built.places.iter().filter(|place| place[0] != u32::MAX).count() as u64;
     let sorted: Vec<[u32; 2]> = read(gpu(), &emission.sorted_emission, inside);

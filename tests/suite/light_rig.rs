@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use glam::{DVec3, IVec3};
 use octolume::data::grid::Grid;
 use octolume::data::light::light_bytes;
-use octolume::data::octree::OctreeBuffers;
 use octolume::data::packing::unpack_normal;
 use octolume::gpu::Gpu;
 use octolume::lights::PosedLight;
@@ -19,7 +18,7 @@ use octolume::stages::light::{LitOctree, average_light};
 
 use crate::octree_rules::{self as rules, Cell};
 use crate::random::ONE;
-use crate::stage_build::{Built, Shape};
+use crate::stage_build::{Built, OctreeBuffers, Shape};
 use crate::stage_rig::{World, buffer, read, run, upload, world_voxel};
 
 /// A built octree, what lighting reads of it, and where its leaves are stored.
@@ -59,7 +58,7 @@ impl LightRig {
         let words: Vec<_> = voxels.iter().map(world_voxel).collect();
         let mut buffers = OctreeBuffers::default();
         let built = World::given(gpu, &words).build_in(gpu, shape, &mut buffers);
-        let octree = LitOctree::new(&built.params, &buffers).unwrap_or_else(|error| panic!("{error}"));
+        let octree = LitOctree::new(buffers.octree()).unwrap_or_else(|error| panic!("{error}"));
         let slots = rules::leaf_slots(&built).collect();
         Self { built, octree, slots }
     }

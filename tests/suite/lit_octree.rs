@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use octolume::data::octree::{FULL_WEIGHT, OctreeBuffers, OctreeParams, PointerLayout, Slot};
+use octolume::data::octree::{FULL_WEIGHT, PointerLayout, Slot};
 use octolume::gpu::{Gpu, GpuBuffer};
 use octolume::settings::Lookup;
 use octolume::settings::lighting::Opacity;
@@ -12,10 +12,10 @@ use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::light::LitOctree;
 use octolume::stages::sample::sample_points::{self, PointParams};
 use octolume::stages::sample::sample_points_ref::{LitNode, LitNodes};
-use octolume::stages::sample::{SampledOctree, Sampler};
+use octolume::stages::sample::{self, SampledOctree, Sampler};
 
 use crate::octree_rules::{self as rules, Cell};
-use crate::stage_build::{Built, Shape};
+use crate::stage_build::{Built, OctreeBuffers, Shape};
 use crate::stage_rig::{World, read, run, upload, world_voxel};
 
 /// Radiance and opacity of a leaf.
@@ -37,8 +37,8 @@ impl LitBuild {
         let words: Vec<_> = voxels.iter().map(world_voxel).collect();
         let mut buffers = OctreeBuffers::default();
         let built = World::given(gpu, &words).build_in(gpu, shape, &mut buffers);
-        let neighbours = link(gpu, &built.params, &mut buffers, PointerLayout::Blocks);
-        let node_neighbours = link(gpu, &built.params, &mut buffers, PointerLayout::Nodes);
+        let neighbours = link(gpu, &mut buffers, PointerLayout::Blocks);
+        let node_neighbours = link(gpu, &mut buffers, PointerLayout::Nodes);
         let (nodes, entries) = lit_nodes(&built, light);
         let light = upload(gpu, "light", &entries);
         Self { built, buffers, light, neighbours, node_neighbours, nodes }
@@ -60,12 +60,17 @@ impl LitBuild {
     }
 
     pub fn sampled(&self, lookup: Lookup) -> SampledOctree {
-        SampledOctree::new(&self.built.params, &self.buffers, &self.light, lookup)
+        let pointers = match sample::pointer_layout(lookup) {
+            None => None,
+            Some(PointerLayout::Blocks) => self.buffers.neighbours.get(),
+            Some(PointerLayout::Nodes) => self.buffers.node_neighbours.get(),
+        };
+        SampledOctree::new(self.buffers.octree(), &self.light, lookup, pointers)
             .unwrap_or_else(|error| panic!("{error}"))
     }
 
     pub fn read_by_cones(&self) -> LitOctree {
-        LitOctree::new(&self.built.params, &self.buffers).unwrap_or_else(|error| panic!("{error}"))
+        LitOctree::new(self.buffers.octree()).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Samples points of (position, level or width).
@@ -80,18 +85,19 @@ impl LitBuild {
     }
 }
 
-fn link(gpu: &Gpu, params: &OctreeParams, buffers: &mut OctreeBuffers, layout: PointerLayout) -> Vec<[u32; 3]> {
+fn link(gpu: &Gpu, buffers: &mut OctreeBuffers, layout: PointerLayout) -> Vec<[u32; 3]> {
     let made = |slot: &Slot| slot.made("mask").expect("built");
-    let (blocks, ranks, block_keys) = (made(&buffers.blocks), made(&buffers.ranks), made(&buffers.block_keys));
+    let (masks, sizes) = (&buffers.masks, buffers.octree().sizes.clone());
+    let (blocks, ranks, block_keys) = (made(&masks.blocks), made(&masks.ranks), made(&buffers.topology.block_keys));
     let slot = match layout {
         PointerLayout::Blocks => &mut buffers.neighbours,
         PointerLayout::Nodes => &mut buffers.node_neighbours,
     };
-    let words = layout.words(params);
+    let words = layout.words(&sizes.params);
     let buffer = slot.ensure(gpu, "neighbours", 4 * words).expect("fits");
     gpu.write(&buffer, 0, &vec![0x77; buffer.bytes() as usize]).expect("fits");
     let linked = Linked { blocks, ranks, block_keys };
-    run(gpu, |frame| link::record(gpu, frame, params, &linked, (layout, &buffer)));
+    run(gpu, |frame| link::record(gpu, frame, &sizes, &linked, (layout, &buffer)));
     read(gpu, &buffer, words / 3)
 }
 

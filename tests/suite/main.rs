@@ -61,6 +61,7 @@ mod normal_maps;
 mod object_numbers;
 mod octree;
 mod octree_rules;
+mod octree_sizes;
 mod parts;
 mod path_tracer;
 mod path_tracer_brdf;

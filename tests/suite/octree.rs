@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use octolume::data::octree::{OctreeBuffers, OctreeParams};
+use octolume::data::octree::OctreeParams;
 use octolume::gpu::Gpu;
 use octolume::gpu::shaders::FILES;
 use octolume::settings::Filter;
@@ -12,7 +12,7 @@ use proptest::prelude::RngExt;
 use crate::device::{gpu, open};
 use crate::octree_rules as rules;
 use crate::random::{self, ONE};
-use crate::stage_build::{Built, Shape};
+use crate::stage_build::{Built, OctreeBuffers, Shape};
 use crate::stage_checks::Expected;
 use crate::stage_rig::{World, world_voxel};
 

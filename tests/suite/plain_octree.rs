@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 use octolume::data::grid::morton_key;
-use octolume::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, OctreeParams, mask_words};
+use octolume::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, OctreeParams, OctreeSizes, mask_words};
 use octolume::data::packing::{NORMAL_MAX, unpack_normal};
 use octolume::gpu::Gpu;
 use octolume::stages::view::march::MarchedOctree;
@@ -84,7 +84,7 @@ impl PlainOctree {
         let upload = |label: &str, words: &[u32]| gpu.upload(label, words).expect("small");
         let objects: Vec<u32> = self.leaves.values().map(|leaf| 0xffff - u32::from(leaf.object)).collect();
         MarchedOctree {
-            params: *params,
+            sizes: OctreeSizes::upload(gpu, params).expect("small"),
             leaf_bits: upload("leaf bits", &mask(params.depth, &self.occupied(params.depth))),
             occupied: upload("occupied", &occupied),
             ranks: upload("ranks", &exclusive_sums(&blocks)),

@@ -262,7 +262,8 @@ fn partial_occupancy_divides_out_of_a_constant_radiance() {
 fn missing_pointers_are_named() {
     let mut octree = random_octree(1, 3, 2);
     octree.buffers.neighbours.free();
-    let sampled = |lookup| SampledOctree::new(&octree.built.params, &octree.buffers, &octree.light, lookup);
+    let pointers = octree.buffers.neighbours.get();
+    let sampled = |lookup| SampledOctree::new(octree.buffers.octree(), &octree.light, lookup, pointers);
     let error = sampled(Lookup::BlockPointers).expect_err("missing").to_string();
     assert!(error.contains("neighbour pointers"), "{error}");
     assert!(sampled(Lookup::Ranks).is_ok());

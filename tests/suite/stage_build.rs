@@ -1,12 +1,14 @@
 //! Builds, fills and averages an octree from world voxels the way an engine does, and reads
 //! everything back.
 
-use octolume::data::octree::{MAX_FRAGMENTS, OctreeBuffers, OctreeParams, Slot, mask_words};
+use octolume::data::octree::{
+    MAX_FRAGMENTS, MaskBuffers, OctreeParams, OctreeRef, OctreeSizes, PayloadBuffers, Slot, TopologyBuffers, mask_words,
+};
 use octolume::gpu::{Gpu, GpuBuffer, Recorder};
 use octolume::settings::Filter;
 use octolume::stages::averaging::average;
 use octolume::stages::build::scan::{self, Scanned};
-use octolume::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, LevelParams, emit, mark, reduce};
+use octolume::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, LevelParams, emit, mark, reduce, size};
 use octolume::stages::fill::{Filling, count, gather, gather_heavy, number_objects, place};
 use octolume::stages::transform::MovingVoxels;
 
@@ -24,6 +26,26 @@ pub struct Shape {
 impl Shape {
     pub fn new(depth: u32, dense_level: u32, filter: Filter) -> Self {
         Self { depth, dense_level, filter, dummies: true }
+    }
+}
+
+/// What a build is in, and what others add to it.
+#[derive(Debug, Default)]
+pub struct OctreeBuffers {
+    /// Of the last build.
+    pub sizes: Option<OctreeSizes>,
+    pub masks: MaskBuffers,
+    pub topology: TopologyBuffers,
+    pub payload: PayloadBuffers,
+    pub leaf_objects: Slot,
+    pub neighbours: Slot,
+    pub node_neighbours: Slot,
+}
+
+impl OctreeBuffers {
+    pub fn octree(&self) -> OctreeRef<'_> {
+        let sizes = self.sizes.as_ref().expect("built");
+        OctreeRef { sizes, masks: &self.masks, topology: &self.topology, payload: &self.payload }
     }
 }
 
@@ -59,38 +81,59 @@ impl World {
 
     /// The same in buffers that may hold an earlier build.
     pub fn build_in(&self, gpu: &Gpu, shape: &Shape, buffers: &mut OctreeBuffers) -> Built {
-        let masks = Masked::new(gpu, &OctreeParams::new(shape.depth, shape.dense_level), buffers);
-        masks.record(gpu, &self.moving, shape);
-        let params = masks.counted(gpu);
-        let filling = masks.filling(gpu, &params, u64::from(self.list.threads), buffers);
-        self.fill(gpu, shape, &params, &masks, &filling);
-        masks.built(gpu, params, &filling, u64::from(self.list.threads))
+        let known = OctreeParams::new(shape.depth, shape.dense_level);
+        let masks = Masked::new(gpu, &known, buffers);
+        run(gpu, |frame| masks.record(gpu, frame, &self.moving, shape));
+        let sizes = OctreeSizes::upload(gpu, &masks.counted(gpu)).expect("small");
+        let out = OutBuffers::new(gpu, &sizes, self.list.threads, buffers);
+        run(gpu, |frame| self.record_fill(gpu, frame, shape, (&sizes, &masks), &out, buffers));
+        buffers.sizes = Some(sizes.clone());
+        masks.built(gpu, sizes.params, &out, self.list.threads.into())
     }
 
-    fn fill(&self, gpu: &Gpu, shape: &Shape, params: &OctreeParams, masks: &Masked, filling: &OutBuffers) {
-        let out = &filling.emitted;
+    /// The same in one recording: the CPU knows no sizes, only what there is room for.
+    pub fn build_within(&self, gpu: &Gpu, shape: &Shape, room: &OctreeParams, buffers: &mut OctreeBuffers) -> Built {
+        let masks = Masked::new(gpu, room, buffers);
+        let sizes = masks.sizes.clone();
+        let out = OutBuffers::new(gpu, &sizes, self.list.threads, buffers);
         run(gpu, |frame| {
-            for buffer in [&out.first_child, &filling.fill.nodes, &filling.fill.heavy_blocks] {
-                frame.clear(buffer);
-            }
-            for level in shape.dense_level..shape.depth {
-                let look_up = (&masks.reduced.blocks, &masks.ranks, &masks.reduced.leaf_bits);
-                emit::record(gpu, frame, params, look_up, out, level);
-            }
-            let (moving, fill) = (&self.moving, &filling.fill);
-            count::record(gpu, frame, moving, params, shape.filter, fill);
-            let pairs = (Scanned::Pairs, params.leaf_block_count);
-            let scanned = scan::record(gpu, frame, pairs, &out.block_counts, &fill.block_starts, &mut Vec::new());
-            scanned.unwrap_or_else(|error| panic!("{error}"));
-            place::record(gpu, frame, moving, fill);
-            gather::record(gpu, frame, params, shape.filter, fill);
-            gather_heavy::record(gpu, frame, params, shape.filter, fill);
-            for level in (0..shape.depth - 1).rev() {
-                average::record(gpu, frame, params, &out.first_child, &fill.nodes, level);
-            }
-            let bits_and_objects = (&masks.reduced.leaf_bits, &filling.leaf_objects);
-            number_objects::record(gpu, frame, moving, (params, shape.filter), fill, bits_and_objects);
+            masks.record(gpu, frame, &self.moving, shape);
+            size::record(gpu, frame, &sizes, &buffers.masks).expect("masks are made");
+            self.record_fill(gpu, frame, shape, (&sizes, &masks), &out, buffers);
         });
+        let found: Vec<OctreeParams> = read(gpu, &sizes.buffer, 1);
+        buffers.sizes = Some(sizes);
+        masks.built(gpu, found[0], &out, self.list.threads.into())
+    }
+
+    fn record_fill(
+        &self,
+        gpu: &Gpu,
+        frame: &mut Recorder,
+        shape: &Shape,
+        (sizes, masks): (&OctreeSizes, &Masked),
+        out: &OutBuffers,
+        buffers: &OctreeBuffers,
+    ) {
+        let (moving, fill, emitted) = (&self.moving, &out.fill, &out.emitted);
+        emit::record_start(frame, sizes, emitted);
+        for level in shape.dense_level..shape.depth {
+            let look_up = (&masks.reduced.blocks, &masks.ranks, &masks.reduced.leaf_bits);
+            emit::record(gpu, frame, sizes, look_up, emitted, level);
+        }
+        fill.record_start(frame, sizes, &buffers.topology).expect("the topology is made");
+        count::record(gpu, frame, moving, sizes, shape.filter, fill);
+        let pairs = (Scanned::Pairs, sizes.params.leaf_block_count);
+        let scanned = scan::record(gpu, frame, pairs, &fill.block_counts, &fill.block_starts, &mut Vec::new());
+        scanned.unwrap_or_else(|error| panic!("{error}"));
+        place::record(gpu, frame, moving, fill);
+        gather::record(gpu, frame, moving, sizes, shape.filter, fill);
+        gather_heavy::record(gpu, frame, sizes, shape.filter, fill);
+        for level in (0..shape.depth - 1).rev() {
+            average::record(gpu, frame, sizes, &emitted.first_child, &fill.nodes, level);
+        }
+        let bits_and_objects = (&masks.reduced.leaf_bits, &out.leaf_objects);
+        number_objects::record(gpu, frame, moving, (sizes, shape.filter), fill, bits_and_objects);
     }
 }
 
@@ -106,7 +149,7 @@ fn dirty(gpu: &Gpu, slot: &mut Slot, label: &str, words: u64) -> GpuBuffer {
 
 /// Mask buffers: sizes known before anything is built.
 struct Masked {
-    params: OctreeParams,
+    sizes: OctreeSizes,
     reduced: reduce::Masks,
     ranks: GpuBuffer,
 }
@@ -117,38 +160,68 @@ struct OutBuffers {
     leaf_objects: GpuBuffer,
 }
 
+impl OutBuffers {
+    fn new(gpu: &Gpu, sizes: &OctreeSizes, voxels: u32, buffers: &mut OctreeBuffers) -> Self {
+        let params = &sizes.params;
+        let leaf_blocks = u64::from(params.leaf_block_count);
+        let (inner_nodes, leaves) = (u64::from(params.inner_node_count), u64::from(params.leaf_count));
+        let (t, p) = (&mut buffers.topology, &mut buffers.payload);
+        for (slot, label, words) in [
+            (&mut t.block_keys, "block keys", u64::from(params.block_count)),
+            (&mut t.first_child, "first child", inner_nodes),
+            (&mut t.block_counts, "leaves of blocks", 2 * leaf_blocks),
+            (&mut p.block_counts, "block counts", 2 * leaf_blocks),
+            (&mut p.block_starts, "block starts", 2 * (leaf_blocks + 1)),
+            (&mut p.places, "places", 2 * u64::from(voxels)),
+            (&mut p.sorted_voxels, "sorted voxels", 4 * u64::from(voxels)),
+            (&mut p.leaves, "leaves", 3 * leaves),
+            (&mut p.nodes, "nodes", 4 * inner_nodes),
+            (&mut p.heavy_blocks, "heavy blocks", heavy_words(voxels.into())),
+        ] {
+            dirty(gpu, slot, label, words);
+        }
+        let emitted = emit::Emitted::new(gpu, sizes, t).expect("fits");
+        let fill = Filling::new(gpu, sizes, &buffers.masks, t, p, voxels).expect("fits");
+        let leaf_objects = dirty(gpu, &mut buffers.leaf_objects, "leaf objects", leaves);
+        Self { emitted, fill, leaf_objects }
+    }
+}
+
+fn heavy_words(voxels: u64) -> u64 {
+    2 + 8 * voxels / u64::from(MAX_FRAGMENTS)
+}
+
 impl Masked {
     fn new(gpu: &Gpu, params: &OctreeParams, buffers: &mut OctreeBuffers) -> Self {
+        let b = &mut buffers.masks;
         let reduced = reduce::Masks {
-            leaf_bits: dirty(gpu, &mut buffers.leaf_bits, "leaf bits", mask_words(params.depth).into()),
-            occupied: dirty(gpu, &mut buffers.occupied, "occupied", params.occupied_words().into()),
-            blocks: dirty(gpu, &mut buffers.blocks, "blocks", params.blocks_words().into()),
-            counters: dirty(gpu, &mut buffers.counters, "counters", 2 * u64::from(COUNTERS)),
+            leaf_bits: dirty(gpu, &mut b.leaf_bits, "leaf bits", mask_words(params.depth).into()),
+            occupied: dirty(gpu, &mut b.occupied, "occupied", params.occupied_words().into()),
+            blocks: dirty(gpu, &mut b.blocks, "blocks", params.blocks_words().into()),
+            counters: dirty(gpu, &mut b.counters, "counters", 2 * u64::from(COUNTERS)),
         };
-        let ranks = dirty(gpu, &mut buffers.ranks, "ranks", u64::from(params.blocks_words()) + 1);
-        Self { params: *params, reduced, ranks }
+        let ranks = dirty(gpu, &mut b.ranks, "ranks", u64::from(params.blocks_words()) + 1);
+        Self { sizes: OctreeSizes::upload(gpu, params).expect("small"), reduced, ranks }
     }
 
-    fn record(&self, gpu: &Gpu, moving: &MovingVoxels, shape: &Shape) {
-        let (params, masks) = (&self.params, &self.reduced);
-        run(gpu, |frame| {
-            mark::record(gpu, frame, moving, params, shape.filter, &masks.leaf_bits, &masks.counters);
-            for level in (0..shape.depth).rev() {
-                if shape.dummies {
-                    reduce::record(gpu, frame, params, masks, level);
-                } else {
-                    reduce_without_dummies(gpu, frame, params, masks, level);
-                }
+    fn record(&self, gpu: &Gpu, frame: &mut Recorder, moving: &MovingVoxels, shape: &Shape) {
+        let (sizes, masks) = (&self.sizes, &self.reduced);
+        mark::record(gpu, frame, moving, sizes, shape.filter, &masks.leaf_bits, &masks.counters);
+        for level in (0..shape.depth).rev() {
+            if shape.dummies {
+                reduce::record(gpu, frame, sizes, masks, level);
+            } else {
+                reduce_without_dummies(gpu, frame, sizes, masks, level);
             }
-            let bits = (Scanned::Bits, params.blocks_words());
-            let scanned = scan::record(gpu, frame, bits, &masks.blocks, &self.ranks, &mut Vec::<Slot>::new());
-            scanned.unwrap_or_else(|error| panic!("{error}"));
-        });
+        }
+        let bits = (Scanned::Bits, sizes.params.blocks_words());
+        let scanned = scan::record(gpu, frame, bits, &masks.blocks, &self.ranks, &mut Vec::<Slot>::new());
+        scanned.unwrap_or_else(|error| panic!("{error}"));
     }
 
     /// The sizes that the scan has found.
     fn counted(&self, gpu: &Gpu) -> OctreeParams {
-        let params = &self.params;
+        let params = &self.sizes.params;
         let ranks: Vec<u32> = read(gpu, &self.ranks, u64::from(params.blocks_words()) + 1);
         let words = (params.dense_level..params.depth).map(|level| params.levels[level as usize].blocks_word);
         let firsts: Vec<u32> = words.chain([params.blocks_words()]).map(|word| ranks[word as usize]).collect();
@@ -159,37 +232,11 @@ impl Masked {
         read(gpu, &self.reduced.counters, COUNTERS.into())
     }
 
-    fn filling(&self, gpu: &Gpu, params: &OctreeParams, voxels: u64, buffers: &mut OctreeBuffers) -> OutBuffers {
-        let leaf_blocks = u64::from(params.leaf_block_count);
-        let inner_nodes = u64::from(params.inner_node_count);
-        let leaves = u64::from(params.leaf_count);
-        let heavy_words = 2 + 8 * voxels / u64::from(MAX_FRAGMENTS);
-        let emitted = emit::Emitted {
-            block_keys: dirty(gpu, &mut buffers.block_keys, "block keys", params.block_count.into()),
-            first_child: dirty(gpu, &mut buffers.first_child, "first child", inner_nodes),
-            block_counts: dirty(gpu, &mut buffers.block_counts, "block counts", 2 * leaf_blocks),
-        };
-        let fill = Filling {
-            blocks: self.reduced.blocks.clone(),
-            ranks: self.ranks.clone(),
-            block_keys: emitted.block_keys.clone(),
-            block_counts: emitted.block_counts.clone(),
-            block_starts: dirty(gpu, &mut buffers.block_starts, "block starts", 2 * (leaf_blocks + 1)),
-            places: dirty(gpu, &mut buffers.places, "places", 2 * voxels),
-            sorted_voxels: dirty(gpu, &mut buffers.sorted_voxels, "sorted voxels", 4 * voxels),
-            leaves: dirty(gpu, &mut buffers.leaves, "leaves", 3 * leaves),
-            nodes: dirty(gpu, &mut buffers.nodes, "nodes", 4 * inner_nodes),
-            heavy_blocks: dirty(gpu, &mut buffers.heavy_blocks, "heavy blocks", heavy_words),
-        };
-        let leaf_objects = dirty(gpu, &mut buffers.leaf_objects, "leaf objects", leaves);
-        OutBuffers { emitted, fill, leaf_objects }
-    }
-
     fn built(&self, gpu: &Gpu, params: OctreeParams, out: &OutBuffers, voxels: u64) -> Built {
         let (masks, fill) = (&self.reduced, &out.fill);
         let counters = self.counters(gpu);
         let leaf_blocks = u64::from(params.leaf_block_count);
-        let heavy: Vec<u32> = read(gpu, &fill.heavy_blocks, 2 + 8 * voxels / u64::from(MAX_FRAGMENTS));
+        let heavy: Vec<u32> = read(gpu, &fill.heavy_blocks, heavy_words(voxels));
         Built {
             params,
             leaf_bits: read(gpu, &masks.leaf_bits, mask_words(params.depth).into()),
@@ -213,10 +260,10 @@ impl Masked {
 }
 
 /// The mutation of `reduce`: no backward neighbours.
-fn reduce_without_dummies(gpu: &Gpu, frame: &mut Recorder, params: &OctreeParams, masks: &reduce::Masks, level: u32) {
+fn reduce_without_dummies(gpu: &Gpu, frame: &mut Recorder, sizes: &OctreeSizes, masks: &reduce::Masks, level: u32) {
     frame
         .pass(&gpu.kernel("build/reduce.wgsl", &[("DUMMIES", 0.0)]))
-        .uniform("octree", params)
+        .bind("octree", &sizes.buffer)
         .uniform("params", &LevelParams { level })
         .bind("leaf_bits", &masks.leaf_bits)
         .bind("occupied", &masks.occupied)

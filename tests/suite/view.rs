@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use octolume::color::gamma_from_linear;
 use octolume::data::grid::morton_cell;
-use octolume::data::octree::FULL_WEIGHT;
+use octolume::data::octree::{FULL_WEIGHT, OctreeSizes};
 use octolume::data::packing::pack_normal;
 use octolume::gpu::Recorder;
 use octolume::scene::OrbitCamera;
@@ -173,7 +173,8 @@ fn ghost_matches_the_reference() {
     let picture = Picture::new(gpu, SIZE_PX).expect("fits");
     let mut recorder = Recorder::default();
     let sets = (&set(&moved), &set(&exact));
-    ghost::record(gpu, &mut recorder, &moved.params, sets, (&view, &GHOST_COLORS), &picture);
+    let sizes = OctreeSizes::upload(gpu, &moved.params).expect("small");
+    ghost::record(gpu, &mut recorder, &sizes, sets, (&view, &GHOST_COLORS), &picture);
     let rules = rules(&look, depth, depth);
     assert_matches(&seen(gpu, recorder, &picture), &rays, 1 << depth, |ray| {
         march_ref::pixel(ray, 1 << depth, &rules, |cell| {

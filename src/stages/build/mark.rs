@@ -1,6 +1,6 @@
 //! Marks the leaves that voxels touch, and counts the weight that falls outside the grid.
 
-use crate::data::octree::OctreeParams;
+use crate::data::octree::OctreeSizes;
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 use crate::settings::Filter;
 use crate::stages::transform::MovingVoxels;
@@ -9,7 +9,7 @@ pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
     voxels: &MovingVoxels,
-    octree: &OctreeParams,
+    octree: &OctreeSizes,
     filter: Filter,
     leaf_bits: &GpuBuffer,
     counters: &GpuBuffer,
@@ -19,7 +19,7 @@ pub fn record(
     frame.clear(counters);
     frame
         .pass(&gpu.kernel("build/mark.wgsl", &[("SPLIT", filter.is_split())]))
-        .uniform("octree", octree)
+        .bind("octree", &octree.buffer)
         .bind("work_items", &voxels.work_items)
         .bind("work_hints", &voxels.work_hints)
         .bind("world_voxels", &voxels.world_voxels)

@@ -1,7 +1,7 @@
 //! Builds the octree's nodes without locks (section 4.3, by another route than Algorithm 1):
 //! mark the leaves as bits, reduce two pyramids of masks, scan them, emit the nodes in key order, and
 //! link them to their forward neighbours (section 4.4).
-//! Sizes are known after the scan, before anything is stored.
+//! The scan knows the sizes; `size` puts them down on the GPU, before anything is stored.
 
 pub mod emit;
 pub mod emit_ref;
@@ -16,6 +16,8 @@ pub mod scan_spread;
 pub mod scan_spread_ref;
 pub mod scan_sum;
 pub mod scan_sum_ref;
+pub mod size;
+pub mod size_ref;
 
 /// Counter of the split weight that fell outside the grid, in 2^-24 voxels.
 pub const COUNTER_CLIPPED: u32 = 0;

@@ -2,7 +2,7 @@
 //! (the dummies of section 4.4 included).
 
 use super::LevelParams;
-use crate::data::octree::{OctreeParams, mask_words};
+use crate::data::octree::{OctreeSizes, mask_words};
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 
 /// The masks that a build reads and writes.
@@ -14,12 +14,12 @@ pub struct Masks {
     pub counters: GpuBuffer,
 }
 
-pub fn record(gpu: &Gpu, frame: &mut Recorder, octree: &OctreeParams, masks: &Masks, level: u32) {
+pub fn record(gpu: &Gpu, frame: &mut Recorder, octree: &OctreeSizes, masks: &Masks, level: u32) {
     let words = u64::from(mask_words(level));
-    let made = if level >= octree.dense_level { 2 } else { 1 };
+    let made = if level >= octree.params.dense_level { 2 } else { 1 };
     frame
         .pass(&gpu.kernel("build/reduce.wgsl", &[]))
-        .uniform("octree", octree)
+        .bind("octree", &octree.buffer)
         .uniform("params", &LevelParams { level })
         .bind("leaf_bits", &masks.leaf_bits)
         .bind("occupied", &masks.occupied)

@@ -75,7 +75,7 @@ pub fn record(
     input
         .surfaces
         .bind(pass)
-        .uniform("octree", &octree.params)
+        .bind("octree", &octree.sizes.buffer)
         .uniform("params", params)
         .bind("blocks", &octree.blocks)
         .bind("ranks", &octree.ranks)

@@ -1,7 +1,7 @@
 //! First half of the counting sort: each voxel's leaf block and place.
 
 use super::Filling;
-use crate::data::octree::OctreeParams;
+use crate::data::octree::OctreeSizes;
 use crate::gpu::{Gpu, Recorder};
 use crate::settings::Filter;
 use crate::stages::transform::MovingVoxels;
@@ -10,14 +10,14 @@ pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
     voxels: &MovingVoxels,
-    octree: &OctreeParams,
+    octree: &OctreeSizes,
     filter: Filter,
     fill: &Filling,
 ) {
     let threads = u64::from(voxels.threads());
     frame
         .pass(&gpu.kernel("fill/count.wgsl", &[("SPLIT", filter.is_split())]))
-        .uniform("octree", octree)
+        .bind("octree", &octree.buffer)
         .bind("work_items", &voxels.work_items)
         .bind("work_hints", &voxels.work_hints)
         .bind("world_voxels", &voxels.world_voxels)

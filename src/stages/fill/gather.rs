@@ -1,15 +1,24 @@
 //! Gathers each leaf block's voxels into its leaves and the node above them.
 
 use super::Filling;
-use crate::data::octree::OctreeParams;
-use crate::gpu::{Gpu, Recorder};
+use crate::data::octree::{OctreeParams, OctreeSizes};
+use crate::data::pages::WORLD_VOXEL_BYTES;
+use crate::gpu::{Counted, Gpu, Recorder};
 use crate::settings::Filter;
+use crate::stages::transform::MovingVoxels;
 
-pub fn record(gpu: &Gpu, frame: &mut Recorder, octree: &OctreeParams, filter: Filter, fill: &Filling) {
-    let blocks = u64::from(octree.leaf_block_count);
+pub fn record(
+    gpu: &Gpu,
+    frame: &mut Recorder,
+    voxels: &MovingVoxels,
+    octree: &OctreeSizes,
+    filter: Filter,
+    fill: &Filling,
+) {
+    let voxel_bytes = WORLD_VOXEL_BYTES * u64::from(voxels.threads());
     frame
         .pass(&gpu.kernel("fill/gather.wgsl", &[("SPLIT", filter.is_split())]))
-        .uniform("octree", octree)
+        .bind("octree", &octree.buffer)
         .bind("blocks", &fill.blocks)
         .bind("ranks", &fill.ranks)
         .bind("block_keys", &fill.block_keys)
@@ -18,6 +27,9 @@ pub fn record(gpu: &Gpu, frame: &mut Recorder, octree: &OctreeParams, filter: Fi
         .bind("leaves", &fill.leaves)
         .bind("nodes", &fill.nodes)
         .bind("heavy_blocks", &fill.heavy_blocks)
-        .bytes_moved(fill.sorted_voxels.bytes() + 12 * u64::from(octree.leaf_count) + blocks * (4 + 8 + 16))
-        .dispatch(blocks);
+        .counted(&octree.buffer, move |octree: &OctreeParams| {
+            let threads = u64::from(octree.leaf_block_count);
+            Counted { threads, bytes: voxel_bytes + 12 * u64::from(octree.leaf_count) + threads * (4 + 8 + 16) }
+        })
+        .dispatch(octree.params.leaf_block_count.into());
 }

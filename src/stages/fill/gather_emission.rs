@@ -2,23 +2,23 @@
 
 use super::Filling;
 use super::place_emission::Emission;
-use crate::data::octree::OctreeParams;
-use crate::gpu::{Gpu, Recorder};
+use crate::data::octree::{OctreeParams, OctreeSizes};
+use crate::gpu::{Counted, Gpu, Recorder};
 use crate::settings::Filter;
 
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
-    octree: &OctreeParams,
+    octree: &OctreeSizes,
     filter: Filter,
     fill: &Filling,
     emission: &Emission,
 ) {
-    let blocks = u64::from(octree.leaf_block_count);
-    frame.clear(&emission.leaf_emission);
+    let emission_bytes = 8 * u64::from(emission.voxels);
+    frame.clear_part(&emission.leaf_emission, 12 * u64::from(octree.params.leaf_count));
     frame
         .pass(&gpu.kernel("fill/gather_emission.wgsl", &[("SPLIT", filter.is_split())]))
-        .uniform("octree", octree)
+        .bind("octree", &octree.buffer)
         .bind("blocks", &fill.blocks)
         .bind("ranks", &fill.ranks)
         .bind("block_keys", &fill.block_keys)
@@ -27,6 +27,9 @@ pub fn record(
         .bind("sorted_emission", &emission.sorted_emission)
         .bind("emitting_blocks", &emission.emitting_blocks)
         .bind("leaf_emission", &emission.leaf_emission)
-        .bytes_moved(emission.sorted_emission.bytes() + emission.leaf_emission.bytes() + blocks * (4 + 8 + 4))
-        .dispatch(blocks);
+        .counted(&octree.buffer, move |octree: &OctreeParams| {
+            let threads = u64::from(octree.leaf_block_count);
+            Counted { threads, bytes: emission_bytes + 12 * u64::from(octree.leaf_count) + threads * (4 + 8 + 4) }
+        })
+        .dispatch(octree.params.leaf_block_count.into());
 }

@@ -1,19 +1,19 @@
 //! Gathers the blocks that hold too many voxels for one thread, a workgroup a block.
 
 use super::Filling;
-use crate::data::octree::OctreeParams;
+use crate::data::octree::OctreeSizes;
 use crate::gpu::{Gpu, Recorder};
 use crate::settings::Filter;
 
 /// Workgroups that share the heavy blocks; with none to do they end at once.
 const GROUPS: u64 = 64;
 
-pub fn record(gpu: &Gpu, frame: &mut Recorder, octree: &OctreeParams, filter: Filter, fill: &Filling) {
+pub fn record(gpu: &Gpu, frame: &mut Recorder, octree: &OctreeSizes, filter: Filter, fill: &Filling) {
     let kernel = gpu.kernel("fill/gather_heavy.wgsl", &[("SPLIT", filter.is_split())]);
     let threads = GROUPS * u64::from(kernel.workgroup_size[0]);
     frame
         .pass(&kernel)
-        .uniform("octree", octree)
+        .bind("octree", &octree.buffer)
         .bind("blocks", &fill.blocks)
         .bind("ranks", &fill.ranks)
         .bind("block_keys", &fill.block_keys)

@@ -1,8 +1,8 @@
 //! Numbers each leaf with the object that fills it most, where somebody looks at objects.
 
 use super::Filling;
-use crate::data::octree::OctreeParams;
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::data::octree::{OctreeParams, OctreeSizes};
+use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
 use crate::settings::Filter;
 use crate::stages::transform::MovingVoxels;
 
@@ -13,15 +13,15 @@ pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
     voxels: &MovingVoxels,
-    (octree, filter): (&OctreeParams, Filter),
+    (octree, filter): (&OctreeSizes, Filter),
     fill: &Filling,
     (leaf_bits, leaf_objects): (&GpuBuffer, &GpuBuffer),
 ) {
     let threads = u64::from(voxels.threads());
-    frame.clear(leaf_objects);
+    frame.clear_part(leaf_objects, 4 * u64::from(octree.params.leaf_count));
     frame
         .pass(&gpu.kernel("fill/number_objects.wgsl", &[("SPLIT", filter.is_split())]))
-        .uniform("octree", octree)
+        .bind("octree", &octree.buffer)
         .bind("work_items", &voxels.work_items)
         .bind("work_hints", &voxels.work_hints)
         .bind("world_voxels", &voxels.world_voxels)
@@ -30,6 +30,9 @@ pub fn record(
         .bind("leaf_bits", leaf_bits)
         .bind("block_starts", &fill.block_starts)
         .bind("leaf_objects", leaf_objects)
-        .bytes_moved(threads * 16 + u64::from(octree.leaf_count) * 4)
+        .counted(&octree.buffer, move |octree: &OctreeParams| Counted {
+            threads,
+            bytes: threads * 16 + u64::from(octree.leaf_count) * 4,
+        })
         .dispatch(threads);
 }

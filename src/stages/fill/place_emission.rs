@@ -2,8 +2,8 @@
 
 use super::Filling;
 use crate::data::light::LightBuffers;
-use crate::data::octree::OctreeParams;
-use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
+use crate::data::octree::{OctreeParams, OctreeSizes};
+use crate::gpu::{Counted, Gpu, GpuBuffer, GpuError, Recorder};
 use crate::stages::transform::MovingVoxels;
 
 /// Emission on its way from caches to leaves.
@@ -14,29 +14,39 @@ pub struct Emission {
     pub sorted_emission: GpuBuffer,
     pub emitting_blocks: GpuBuffer,
     pub leaf_emission: GpuBuffer,
+    /// Voxels with a place among the sorted ones.
+    pub voxels: u32,
 }
 
 impl Emission {
     pub fn new(
         gpu: &Gpu,
         buffers: &mut LightBuffers,
-        octree: &OctreeParams,
+        octree: &OctreeSizes,
         (cache_emission, voxels): (GpuBuffer, u32),
     ) -> Result<Self, GpuError> {
-        let blocks = u64::from(octree.leaf_block_count);
-        let leaves = u64::from(octree.leaf_count);
+        let blocks = u64::from(octree.params.leaf_block_count);
+        let leaves = u64::from(octree.params.leaf_count);
         Ok(Self {
             cache_emission,
             sorted_emission: buffers.sorted_emission.ensure(gpu, "sorted emission", 8 * u64::from(voxels))?,
             emitting_blocks: buffers.emitting_blocks.ensure(gpu, "emitting blocks", 4 * blocks)?,
+            voxels,
             leaf_emission: buffers.leaf_emission.ensure(gpu, "leaf emission", 12 * leaves)?,
         })
     }
 }
 
-pub fn record(gpu: &Gpu, frame: &mut Recorder, voxels: &MovingVoxels, fill: &Filling, emission: &Emission) {
+pub fn record(
+    gpu: &Gpu,
+    frame: &mut Recorder,
+    voxels: &MovingVoxels,
+    octree: &OctreeSizes,
+    fill: &Filling,
+    emission: &Emission,
+) {
     let threads = u64::from(voxels.threads());
-    frame.clear(&emission.emitting_blocks);
+    frame.clear_part(&emission.emitting_blocks, 4 * u64::from(octree.params.leaf_block_count));
     frame
         .pass(&gpu.kernel("fill/place_emission.wgsl", &[]))
         .bind("work_items", &voxels.work_items)
@@ -47,6 +57,9 @@ pub fn record(gpu: &Gpu, frame: &mut Recorder, voxels: &MovingVoxels, fill: &Fil
         .bind("block_starts", &fill.block_starts)
         .bind("sorted_emission", &emission.sorted_emission)
         .bind("emitting_blocks", &emission.emitting_blocks)
-        .bytes_moved(threads * (8 + 8 + 8) + emission.emitting_blocks.bytes())
+        .counted(&octree.buffer, move |octree: &OctreeParams| Counted {
+            threads,
+            bytes: threads * (8 + 8 + 8) + 4 * u64::from(octree.leaf_block_count),
+        })
         .dispatch(threads);
 }

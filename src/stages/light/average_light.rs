@@ -2,27 +2,24 @@
 
 use super::LitOctree;
 use crate::data::light::LIGHT_BYTES;
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::data::octree::OctreeParams;
+use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
 use crate::settings::lighting::Opacity;
 use crate::stages::build::LevelParams;
 
 /// Writes all inner levels, from the leaves up.
 pub fn record(gpu: &Gpu, frame: &mut Recorder, octree: &LitOctree, opacity: Opacity, light: &GpuBuffer) {
-    for level in (0..octree.params.depth).rev() {
+    for level in (0..octree.sizes.params.depth).rev() {
         record_level(gpu, frame, octree, opacity, light, level);
     }
 }
 
 fn record_level(gpu: &Gpu, frame: &mut Recorder, octree: &LitOctree, opacity: Opacity, light: &GpuBuffer, level: u32) {
-    let params = &octree.params;
     let is_directional = opacity == Opacity::Directional;
-    let nodes = u64::from(params.node_count(level));
-    let children =
-        if level + 1 == params.depth { u64::from(params.leaf_count) } else { u64::from(params.node_count(level + 1)) };
     let entries = if is_directional { 2 } else { 1 };
     frame
         .pass(&gpu.kernel("light/average_light.wgsl", &[("DIRECTIONAL", f64::from(u8::from(is_directional)))]))
-        .uniform("octree", params)
+        .bind("octree", &octree.sizes.buffer)
         .uniform("params", &LevelParams { level })
         .bind("first_child", &octree.first_child)
         .bind("leaf_bits", &octree.leaf_bits)
@@ -30,6 +27,11 @@ fn record_level(gpu: &Gpu, frame: &mut Recorder, octree: &LitOctree, opacity: Op
         .bind("block_starts", &octree.block_starts)
         .bind("nodes", &octree.nodes)
         .bind("light", light)
-        .bytes_moved(nodes * (4 + 8) + (nodes + children) * entries * LIGHT_BYTES)
-        .dispatch(nodes);
+        .counted(&octree.sizes.buffer, move |octree: &OctreeParams| {
+            let nodes = u64::from(octree.node_count(level));
+            let is_last = level + 1 == octree.depth;
+            let children = u64::from(if is_last { octree.leaf_count } else { octree.node_count(level + 1) });
+            Counted { threads: nodes, bytes: nodes * (4 + 8) + (nodes + children) * entries * LIGHT_BYTES }
+        })
+        .dispatch(octree.sizes.params.node_count(level).into());
 }

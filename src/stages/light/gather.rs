@@ -3,7 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::LitOctree;
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::data::octree::OctreeParams;
+use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
 use crate::settings::lighting::Opacity;
 
 /// A step is never shorter than this, in cells: what bounds the steps of a cone.
@@ -101,7 +102,7 @@ pub fn record(
     let constants = [("SKY", flag(gathered == Gathered::Sky)), ("DIRECTIONAL", flag(opacity == Opacity::Directional))];
     frame
         .pass(&gpu.kernel("light/gather.wgsl", &constants))
-        .uniform("octree", &octree.params)
+        .bind("octree", &octree.sizes.buffer)
         .uniform("cone", params)
         .bind("leaf_bits", &octree.leaf_bits)
         .bind("blocks", &octree.blocks)
@@ -111,6 +112,9 @@ pub fn record(
         .bind("light", light)
         .bind("leaves", &octree.leaves)
         .bind("irradiance", irradiance)
-        .bytes_moved(u64::from(octree.params.leaf_count) * (12 + 12 + 16))
-        .dispatch(octree.params.leaf_block_count.into());
+        .counted(&octree.sizes.buffer, |octree: &OctreeParams| Counted {
+            threads: octree.leaf_block_count.into(),
+            bytes: u64::from(octree.leaf_count) * (12 + 12 + 16),
+        })
+        .dispatch(octree.sizes.params.leaf_block_count.into());
 }

@@ -7,7 +7,8 @@ use super::shadow::ShadowMap;
 use super::{LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT, LitOctree, SHADOWS_MAP, SHADOWS_MARCH, SHADOWS_OFF};
 use crate::data::grid::Grid;
 use crate::data::light::IRRADIANCE_BYTES;
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::data::octree::OctreeParams;
+use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
 use crate::lights::PosedLight;
 use crate::scene::LightKind;
 use crate::settings::lighting::Shadows;
@@ -81,11 +82,9 @@ pub fn record(
         Shadows::Map => SHADOWS_MAP,
         Shadows::March => SHADOWS_MARCH,
     };
-    let params = &octree.params;
-    let blocks = u64::from(params.leaf_block_count);
     frame
         .pass(&gpu.kernel("light/illuminate.wgsl", &[("SHADOWS", f64::from(how))]))
-        .uniform("octree", params)
+        .bind("octree", &octree.sizes.buffer)
         .uniform("light", light)
         .uniform("shadow", &map.params)
         .texture("shadow_map", &map.view)
@@ -97,6 +96,9 @@ pub fn record(
         .bind("block_starts", &octree.block_starts)
         .bind("leaves", &octree.leaves)
         .bind("irradiance", irradiance)
-        .bytes_moved(blocks * (4 + 8) + u64::from(params.leaf_count) * (4 + 2 * IRRADIANCE_BYTES))
-        .dispatch(blocks);
+        .counted(&octree.sizes.buffer, |octree: &OctreeParams| {
+            let threads = u64::from(octree.leaf_block_count);
+            Counted { threads, bytes: threads * (4 + 8) + u64::from(octree.leaf_count) * (4 + 2 * IRRADIANCE_BYTES) }
+        })
+        .dispatch(octree.sizes.params.leaf_block_count.into());
 }

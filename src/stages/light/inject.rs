@@ -4,7 +4,8 @@ use bytemuck::{Pod, Zeroable};
 
 use super::LitOctree;
 use crate::data::light::{IRRADIANCE_BYTES, LIGHT_BYTES};
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::data::octree::OctreeParams;
+use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
 
 /// Mirror of `InjectParams` in shaders/light/inject.wgsl.
 #[repr(C)]
@@ -48,10 +49,9 @@ fn record_as(
         ("IRRADIANCE", flag(irradiance)),
     ];
     let terms = 1 + u64::from(from.gathered.is_some()) + u64::from(from.emission.is_some());
-    let leaves = u64::from(octree.params.leaf_count);
     frame
         .pass(&gpu.kernel("light/inject.wgsl", &constants))
-        .uniform("octree", &octree.params)
+        .bind("octree", &octree.sizes.buffer)
         .uniform("params", &InjectParams { emission_nits: from.emission.map_or(0.0, |(_, nits)| nits) })
         .bind("leaves", &octree.leaves)
         .bind("direct", from.direct)
@@ -59,6 +59,9 @@ fn record_as(
         .bind("gathered", from.gathered.unwrap_or(from.direct))
         .bind("leaf_emission", from.emission.map_or(from.direct, |(emission, _)| emission))
         .bind("light", light)
-        .bytes_moved(leaves * (8 + terms * IRRADIANCE_BYTES + LIGHT_BYTES))
-        .dispatch(leaves);
+        .counted(&octree.sizes.buffer, move |octree: &OctreeParams| {
+            let threads = u64::from(octree.leaf_count);
+            Counted { threads, bytes: threads * (8 + terms * IRRADIANCE_BYTES + LIGHT_BYTES) }
+        })
+        .dispatch(octree.sizes.params.leaf_count.into());
 }

@@ -17,7 +17,7 @@ pub mod inject;
 pub mod inject_ref;
 pub mod shadow;
 
-use crate::data::octree::{OctreeBuffers, OctreeParams};
+use crate::data::octree::{OctreeRef, OctreeSizes};
 use crate::gpu::{GpuBuffer, GpuError};
 
 pub const LIGHT_DIRECTIONAL: u32 = 0;
@@ -36,7 +36,7 @@ pub const SPREAD_COSINE: f64 = 0.25;
 /// What lighting reads of a built octree.
 #[derive(Clone, Debug)]
 pub struct LitOctree {
-    pub params: OctreeParams,
+    pub sizes: OctreeSizes,
     pub leaf_bits: GpuBuffer,
     pub occupied: GpuBuffer,
     pub blocks: GpuBuffer,
@@ -50,18 +50,19 @@ pub struct LitOctree {
 
 impl LitOctree {
     /// Fails until all of it was built.
-    pub fn new(params: &OctreeParams, buffers: &OctreeBuffers) -> Result<Self, GpuError> {
+    pub fn new(octree: OctreeRef<'_>) -> Result<Self, GpuError> {
+        let OctreeRef { sizes, masks, topology, payload } = octree;
         Ok(Self {
-            params: *params,
-            leaf_bits: buffers.leaf_bits.made("leaf bits")?,
-            occupied: buffers.occupied.made("occupied masks")?,
-            blocks: buffers.blocks.made("block masks")?,
-            ranks: buffers.ranks.made("block ranks")?,
-            block_keys: buffers.block_keys.made("block keys")?,
-            block_starts: buffers.block_starts.made("block starts")?,
-            first_child: buffers.first_child.made("child pointers")?,
-            leaves: buffers.leaves.made("leaves")?,
-            nodes: buffers.nodes.made("nodes")?,
+            sizes: sizes.clone(),
+            leaf_bits: masks.leaf_bits.made("leaf bits")?,
+            occupied: masks.occupied.made("occupied masks")?,
+            blocks: masks.blocks.made("block masks")?,
+            ranks: masks.ranks.made("block ranks")?,
+            block_keys: topology.block_keys.made("block keys")?,
+            block_starts: payload.block_starts.made("block starts")?,
+            first_child: topology.first_child.made("child pointers")?,
+            leaves: payload.leaves.made("leaves")?,
+            nodes: payload.nodes.made("nodes")?,
         })
     }
 }

@@ -6,7 +6,7 @@
 pub mod sample_points;
 pub mod sample_points_ref;
 
-use crate::data::octree::{OctreeBuffers, OctreeParams, PointerLayout};
+use crate::data::octree::{OctreeRef, OctreeSizes, PointerLayout};
 use crate::gpu::{GpuBuffer, GpuError, Kernel, PassBuilder};
 use crate::settings::lighting::Opacity;
 use crate::settings::{Lookup, Sampling};
@@ -74,7 +74,7 @@ fn flag(on: bool) -> f64 {
 /// What a sampler with any look-up reads.
 #[derive(Clone, Debug)]
 pub struct SampledOctree {
-    pub params: OctreeParams,
+    pub sizes: OctreeSizes,
     pub blocks: GpuBuffer,
     pub ranks: GpuBuffer,
     pub first_child: GpuBuffer,
@@ -86,34 +86,37 @@ pub struct SampledOctree {
 }
 
 impl SampledOctree {
-    /// The error names what was not made: the octree, or the pointers of this look-up.
+    /// `pointers`: those of the look-up, which others do not read. The error names what was not made: the octree,
+    /// or the pointers.
     pub fn new(
-        params: &OctreeParams,
-        buffers: &OctreeBuffers,
+        octree: OctreeRef<'_>,
         light: &GpuBuffer,
         lookup: Lookup,
+        pointers: Option<&GpuBuffer>,
     ) -> Result<Self, GpuError> {
-        let ranks = buffers.ranks.made("block ranks")?;
+        let OctreeRef { sizes, masks, topology, payload } = octree;
+        let ranks = masks.ranks.made("block ranks")?;
+        let made = |label: &str| pointers.cloned().ok_or_else(|| GpuError::Missing { label: label.to_owned() });
         let neighbours = match pointer_layout(lookup) {
             None => ranks.clone(),
-            Some(PointerLayout::Blocks) => buffers.neighbours.made("neighbour pointers")?,
-            Some(PointerLayout::Nodes) => buffers.node_neighbours.made("neighbour pointers of nodes")?,
+            Some(PointerLayout::Blocks) => made("neighbour pointers")?,
+            Some(PointerLayout::Nodes) => made("neighbour pointers of nodes")?,
         };
         Ok(Self {
-            params: *params,
-            blocks: buffers.blocks.made("block masks")?,
+            sizes: sizes.clone(),
+            blocks: masks.blocks.made("block masks")?,
             ranks,
-            first_child: buffers.first_child.made("child pointers")?,
+            first_child: topology.first_child.made("child pointers")?,
             neighbours,
-            leaf_bits: buffers.leaf_bits.made("leaf bits")?,
-            block_starts: buffers.block_starts.made("block starts")?,
+            leaf_bits: masks.leaf_bits.made("leaf bits")?,
+            block_starts: payload.block_starts.made("block starts")?,
             light: light.clone(),
         })
     }
 
     /// Binds all of it by the names in shaders/shared/look_up.wgsl.
     pub fn bind<'a>(&self, pass: PassBuilder<'a, Kernel>) -> PassBuilder<'a, Kernel> {
-        pass.uniform("octree", &self.params)
+        pass.bind("octree", &self.sizes.buffer)
             .bind("blocks", &self.blocks)
             .bind("ranks", &self.ranks)
             .bind("first_child", &self.first_child)

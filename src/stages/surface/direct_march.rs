@@ -10,7 +10,7 @@ pub fn record(gpu: &Gpu, frame: &mut Recorder, lit: &Lit<'_>, light: &LightParam
     let pass = frame.pass(&gpu.kernel("surface/direct_march.wgsl", &[]));
     lit.bind(pass)
         .uniform("light", light)
-        .uniform("octree", &octree.params)
+        .bind("octree", &octree.sizes.buffer)
         .bind("leaf_bits", &octree.leaf_bits)
         .bind("occupied", &octree.occupied)
         .bind("blocks", &octree.blocks)

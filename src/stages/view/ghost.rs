@@ -1,7 +1,7 @@
 //! Shows the moved leaves over the exact ones: holes, spill, and what both have.
 
 use super::{GhostColors, Picture, ViewParams};
-use crate::data::octree::OctreeParams;
+use crate::data::octree::OctreeSizes;
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 
 /// Leaf bits and the masks of all levels above them (`occupied`) of one set of leaves.
@@ -15,14 +15,14 @@ pub struct LeafSet {
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
-    octree: &OctreeParams,
+    octree: &OctreeSizes,
     (moved, exact): (&LeafSet, &LeafSet),
     (view, colors): (&ViewParams, &GhostColors),
     picture: &Picture,
 ) {
     frame
         .pass(&gpu.kernel("view/ghost.wgsl", &[]))
-        .uniform("octree", octree)
+        .bind("octree", &octree.buffer)
         .uniform("view", view)
         .uniform("ghost", colors)
         .bind("moved_bits", &moved.leaf_bits)

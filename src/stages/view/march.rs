@@ -1,13 +1,13 @@
 //! Shows the octree: one ray a pixel, occupancy as alpha (Fig. 8).
 
 use super::{Palette, Picture, ViewParams};
-use crate::data::octree::{OctreeBuffers, OctreeParams};
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::data::octree::{OctreeRef, OctreeSizes};
+use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 
 /// What marching reads of an octree.
 #[derive(Clone, Debug)]
 pub struct MarchedOctree {
-    pub params: OctreeParams,
+    pub sizes: OctreeSizes,
     pub leaf_bits: GpuBuffer,
     pub occupied: GpuBuffer,
     pub blocks: GpuBuffer,
@@ -20,18 +20,19 @@ pub struct MarchedOctree {
 }
 
 impl MarchedOctree {
-    /// `None` until all of it was built.
-    pub fn new(params: &OctreeParams, buffers: &OctreeBuffers) -> Option<Self> {
-        Some(Self {
-            params: *params,
-            leaf_bits: buffers.leaf_bits.get()?.clone(),
-            occupied: buffers.occupied.get()?.clone(),
-            blocks: buffers.blocks.get()?.clone(),
-            ranks: buffers.ranks.get()?.clone(),
-            block_starts: buffers.block_starts.get()?.clone(),
-            leaves: buffers.leaves.get()?.clone(),
-            nodes: buffers.nodes.get()?.clone(),
-            leaf_objects: buffers.leaf_objects.get().cloned(),
+    /// Fails until all of it was built.
+    pub fn new(octree: OctreeRef<'_>, leaf_objects: Option<&GpuBuffer>) -> Result<Self, GpuError> {
+        let OctreeRef { sizes, masks, payload, .. } = octree;
+        Ok(Self {
+            sizes: sizes.clone(),
+            leaf_bits: masks.leaf_bits.made("leaf bits")?,
+            occupied: masks.occupied.made("occupied masks")?,
+            blocks: masks.blocks.made("block masks")?,
+            ranks: masks.ranks.made("block ranks")?,
+            block_starts: payload.block_starts.made("block starts")?,
+            leaves: payload.leaves.made("leaves")?,
+            nodes: payload.nodes.made("nodes")?,
+            leaf_objects: leaf_objects.cloned(),
         })
     }
 }
@@ -45,7 +46,7 @@ pub fn record(
 ) {
     frame
         .pass(&gpu.kernel("view/march.wgsl", &[]))
-        .uniform("octree", &octree.params)
+        .bind("octree", &octree.sizes.buffer)
         .uniform("view", view)
         .uniform("palette", palette)
         .bind("leaf_bits", &octree.leaf_bits)

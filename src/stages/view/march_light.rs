@@ -24,7 +24,7 @@ pub fn record(
 ) {
     frame
         .pass(&gpu.kernel("view/march_light.wgsl", &[]))
-        .uniform("octree", &octree.params)
+        .bind("octree", &octree.sizes.buffer)
         .uniform("view", view)
         .uniform("exposure", &ExposureParams { factor })
         .bind("leaf_bits", &octree.leaf_bits)

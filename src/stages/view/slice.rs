@@ -72,7 +72,7 @@ pub fn record(
         .bind(pass)
         .uniform("view", view)
         .uniform("palette", palette)
-        .uniform("params", &SliceParams::new(slice, octree.params.depth, range))
+        .uniform("params", &SliceParams::new(slice, octree.sizes.params.depth, range))
         .texture("picture", picture.color.view())
         .texture("depth", picture.distance.view())
         .dispatch(picture.tiled_threads());
