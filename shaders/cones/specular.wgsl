@@ -1,5 +1,5 @@
 // What glossy surfaces reflect: one cone a pixel about the mirror direction, as wide as the roughness makes it
-// (section 4.5), the sky behind. A thread a pixel of the listed tiles. `specular`, cleared before, gets 1 in
+// (section 4.5), the sky behind. A thread a pixel of the listed tiles, whose number `list` begins with. `specular`, cleared before, gets 1 in
 // its last channel where a cone was traced.
 #import shared/threads.wgsl
 #import shared/corners_ranked.wgsl
@@ -62,10 +62,10 @@ fn reflection(s: Surface) -> vec4<f32> {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    if thread >= min(threads.end, 64u * list[0]) {
         return;
     }
-    let pixel = pixel_of_tile(params.size_px.x, list[thread / 64u], thread % 64u);
+    let pixel = pixel_of_tile(params.size_px.x, list[1u + thread / 64u], thread % 64u);
     if any(pixel >= params.size_px) {
         return;
     }

@@ -1,13 +1,17 @@
 // Shows the light that the octree holds, radiance or irradiance: as `march`, coloured by a node's mean
-// light times the exposure. In: the octree's masks, `light`, a view.
+// light times the exposure, which is set, or shows the mean of all light as MEAN_SHOWN_AS. In: the octree's
+// masks, `light`, a view.
 #import shared/threads.wgsl
 #import shared/occupied_nodes.wgsl
 #import shared/leaf_slot.wgsl
 #import shared/march.wgsl
+#import shared/mean_light.wgsl
 
 struct ExposureParams {
-    // Shown = light · factor.
+    // Shown = light · factor, unless it is automatic.
     factor: f32,
+    // 1: by the mean.
+    automatic: u32,
 }
 
 @group(0) @binding(0) var<uniform> octree: OctreeParams;
@@ -24,6 +28,20 @@ struct ExposureParams {
 
 override WORKGROUP_SIZE: u32 = 64u;
 
+// Of this picture.
+var<private> factor: f32;
+
+fn exposure_factor() -> f32 {
+    if exposure.automatic == 0u {
+        return exposure.factor;
+    }
+    let mean = mean_luminance();
+    if !(mean > 0.0) {
+        return 1.0;
+    }
+    return MEAN_SHOWN_AS / mean;
+}
+
 // Where the light of an occupied node of the shown level lies.
 fn light_index(key: u32) -> u32 {
     if view.level < octree.depth {
@@ -34,13 +52,14 @@ fn light_index(key: u32) -> u32 {
 
 fn seen(key: u32, ray: Ray, walk: Walk) -> vec4<f32> {
     let stored = light[light_index(key)];
-    return vec4<f32>(stored.xyz / stored.w * exposure.factor, stored.w);
+    return vec4<f32>(stored.xyz / stored.w * factor, stored.w);
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let thread = thread_index(id, groups);
     if thread < threads.end {
+        factor = exposure_factor();
         show(thread);
     }
 }

@@ -1,19 +1,19 @@
 // The picture of what was composed: light by exposure and tone curve, depth by a scale, all else as it is.
 #import shared/threads.wgsl
 #import shared/palette.wgsl
+#import shared/picture_exposure.wgsl
 #import shared/store_pixel.wgsl
 
 override SHOWS: u32 = 0u;
 override CURVE: u32 = 0u;
 
 struct ShowSurfacesParams {
-    // Light is multiplied by it.
-    exposure: f32,
     // Ends of the scale of depths, scene units.
     least: f32,
     most: f32,
     // 1: where no surface is, the sky shines.
     sky: u32,
+    pad: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: ViewParams;
@@ -23,6 +23,7 @@ struct ShowSurfacesParams {
 @group(0) @binding(4) var<storage, read> shown: array<vec4<f32>>;
 @group(0) @binding(5) var picture: texture_storage_2d<rgba8unorm, write>;
 @group(0) @binding(6) var depth: texture_storage_2d<r32float, write>;
+@group(0) @binding(7) var<uniform> exposure: PictureExposure;
 
 override WORKGROUP_SIZE: u32 = 64u;
 
@@ -37,7 +38,7 @@ fn tone_mapped(x: vec3<f32>) -> vec3<f32> {
 fn color_of(value: vec3<f32>) -> vec3<f32> {
     switch SHOWS {
         // Beyond this every curve is at its end, and its squares stay finite.
-        case SHOWS_LIGHT: { return tone_mapped(min(params.exposure * value, vec3<f32>(1e6))); }
+        case SHOWS_LIGHT: { return tone_mapped(min(exposure.factor * value, vec3<f32>(1e6))); }
         case SHOWS_NORMAL: { return linear_from_gamma(0.5 * value + 0.5); }
         case SHOWS_DEPTH: { return palette_value((params.most - value.x) / (params.most - params.least)); }
         default: { return value; }

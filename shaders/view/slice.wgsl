@@ -3,6 +3,7 @@
 // background. In: the lit octree, a view, a plane. Out: the picture, and the distance to the plane.
 #import shared/threads.wgsl
 #import shared/look_up.wgsl
+#import shared/mean_light.wgsl
 #import shared/palette.wgsl
 #import shared/store_pixel.wgsl
 #import shared/view.wgsl
@@ -15,7 +16,7 @@ struct SliceParams {
     at: f32,
     // Bits SLICE_*.
     flags: u32,
-    // Values at the scale's ends.
+    // Values at the scale's ends; with SLICE_OF_MEAN in mean luminances of all light, which is 1 where there is none.
     least: f32,
     most: f32,
     pad: vec2<u32>,
@@ -59,12 +60,23 @@ fn meets_plane(ray: PixelRay) -> f32 {
     return t;
 }
 
+fn unit_of_scale() -> f32 {
+    if (params.flags & SLICE_OF_MEAN) == 0u {
+        return 1.0;
+    }
+    let mean = mean_luminance();
+    return select(1.0, mean, mean > 0.0);
+}
+
 // Where a value lies on the scale: 0 … 1, or beyond its ends.
 fn share_of(value: f32) -> f32 {
+    let unit = unit_of_scale();
+    let least = params.least * unit;
+    let most = params.most * unit;
     if (params.flags & SLICE_LOGARITHMIC) == 0u {
-        return (value - params.least) / (params.most - params.least);
+        return (value - least) / (most - least);
     }
-    return log2(max(value, params.least) / params.least) / log2(params.most / params.least);
+    return log2(max(value, least) / least) / log2(most / least);
 }
 
 fn shown(ray: PixelRay) -> Shown {
@@ -81,7 +93,7 @@ fn shown(ray: PixelRay) -> Shown {
         if seen.w == 0.0 {
             return nothing;
         }
-        value = dot(seen.xyz, vec3<f32>(LUMINANCE_RED, LUMINANCE_GREEN, LUMINANCE_BLUE)) / seen.w;
+        value = luminance_of(seen.xyz) / seen.w;
     }
     let color = palette_value(share_of(value));
     return Shown(color, ray.start_cells + t);

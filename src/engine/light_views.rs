@@ -6,12 +6,9 @@ use crate::gpu::Recorder;
 use crate::settings::{ColorBy, Settings, SliceValue, SurfaceView, View};
 use crate::stages::sample::SampledOctree;
 use crate::stages::view::camera::PixelRays;
-use crate::stages::view::{Palette, Picture, ViewParams};
+use crate::stages::view::march_light::Exposure;
+use crate::stages::view::{MEAN_SHOWN_AS, Palette, Picture, ViewParams};
 use crate::stages::view::{march_light, show_shadow, slice};
-
-/// The mean light of a scene is shown as this without an exposure of one's own: mean voxels are mostly
-/// in shadow, so that what is lit comes out bright.
-pub const MEAN_SHOWN_AS: f64 = 0.18;
 
 type Drawn<'a> = (&'a PixelRays, &'a Picture);
 
@@ -49,13 +46,8 @@ impl Engine {
     /// Around the mean, where light spans many powers of two; from 0 where the scale is linear.
     fn slice_range(&self, settings: &Settings) -> [f64; 2] {
         let slice = &settings.look.slice;
-        let mean = match slice.value {
-            SliceValue::Occupancy => return if slice.logarithmic { [1.0 / 4096.0, 1.0] } else { [0.0, 1.0] },
-            SliceValue::Radiance => self.light.mean(Stored::Radiance),
-            SliceValue::Irradiance => self.light.mean(Stored::Irradiance),
-        };
-        let mean = if mean > 0.0 { mean } else { 1.0 };
-        if slice.logarithmic { [mean / 256.0, mean * 16.0] } else { [0.0, mean * 8.0] }
+        let stored = if slice.value == SliceValue::Irradiance { Stored::Irradiance } else { Stored::Radiance };
+        slice::range_of_mean(slice, Some(self.light.mean(stored)).filter(|mean| *mean > 0.0))
     }
 
     /// Distances in the grid along the map's axis, cells.
@@ -84,7 +76,7 @@ impl Engine {
         let octree = self.lit_octree()?;
         let light = self.light.stored(stored(&wanted.settings)).made("light")?;
         let view = ViewParams::new(rays, &wanted.settings.look, octree.sizes.params.depth);
-        let factor = self.exposure() as f32;
+        let factor = wanted.settings.look.exposure_stops.map_or(Exposure::OfMean, |stops| Exposure::Set(stops.exp2()));
         march_light::record(&self.gpu, frame, &octree, (&light, factor), &view, picture);
         Ok(())
     }
@@ -101,9 +93,8 @@ impl Engine {
         let sampled =
             SampledOctree::new(octree.octree()?, &light, look.slice.lookup, octree.pointers(look.slice.lookup))?;
         let view = ViewParams::new(rays, look, octree.params.depth);
-        let range = self.slice_range(&wanted.settings);
         let palette = Palette::new(look.slice.value.color());
-        slice::record(&self.gpu, frame, &sampled, (&look.slice, range), (&view, &palette), picture);
+        slice::record(&self.gpu, frame, &sampled, (&look.slice, None), (&view, &palette), picture);
         Ok(())
     }
 

@@ -46,7 +46,6 @@ pub use built_octree::BuiltOctree;
 pub use error::EngineError;
 pub use inspect::{NodeAddress, NodeFacts, StoredNode};
 use light::LightOnGpu;
-pub use light_views::MEAN_SHOWN_AS;
 use picture::ExactMasks;
 pub use read_voxels::WorldVoxels;
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};

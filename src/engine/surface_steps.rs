@@ -7,7 +7,8 @@ use super::surfaces::SeenBy;
 use super::{Engine, EngineError, Wanted};
 use crate::gpu::KernelTiming;
 use crate::plan::{FramePlan, Pass};
-use crate::stages::surface::sum_luminance::{self, SUM_BYTES};
+use crate::stages::surface::mean_luminance_ref;
+use crate::stages::surface::sum_luminance::SUM_BYTES;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SurfaceStep {
@@ -89,7 +90,7 @@ impl Engine {
         match step {
             SurfaceStep::GlossyCount => self.surfaces.glossy_count = bytemuck::pod_read_unaligned(bytes),
             SurfaceStep::MeanLuminance => {
-                self.surfaces.mean_luminance = sum_luminance::mean_luminance(&bytemuck::pod_collect_to_vec(bytes));
+                self.surfaces.mean_luminance = mean_luminance_ref::mean_luminance(&bytemuck::pod_collect_to_vec(bytes));
             }
             _ => {}
         }

@@ -1,7 +1,6 @@
 //! The lit surfaces that the camera sees: surface image, direct light, and the picture of it all.
 
 use super::light::no_map;
-use super::light_views::MEAN_SHOWN_AS;
 use super::wanted::Placed;
 use super::{Engine, EngineError, Wanted, missing};
 use crate::data::octree::Slot;
@@ -21,7 +20,7 @@ use crate::stages::surface::{Lit, RADIANCE_BYTES, direct, direct_march, emission
 use crate::stages::view::camera::PixelRays;
 use crate::stages::view::mesh::camera_from_world;
 use crate::stages::view::picture::depth_buffer;
-use crate::stages::view::show_surfaces::{self, ShowSurfacesParams};
+use crate::stages::view::show_surfaces::{self, ShowSurfacesParams, ShownExposure};
 use crate::stages::view::{Palette, Picture, ViewParams};
 
 /// Images between surface image and picture, each made when it is first asked for.
@@ -204,7 +203,7 @@ impl Engine {
     pub(super) fn surface_exposure(&self, wanted: &Wanted) -> f64 {
         match (wanted.settings.look.exposure_stops, self.surfaces.mean_luminance) {
             (Some(stops), _) => stops.exp2(),
-            (None, Some(mean)) => MEAN_SHOWN_AS / mean,
+            (None, Some(mean)) => crate::stages::view::MEAN_SHOWN_AS / mean,
             (None, None) => 1.0,
         }
     }
@@ -220,18 +219,19 @@ impl Engine {
         let shown = self.surfaces.shown.made("shown light")?;
         let [least, most] = self.depth_range(wanted)?;
         let params = ShowSurfacesParams {
-            exposure: self.surface_exposure(wanted) as f32,
             least: least as f32,
             most: most as f32,
             sky: u32::from(wanted.settings.lighting.sky_nits != [0.0; 3]),
+            pad: 0,
         };
+        let exposure = ShownExposure::Set(self.surface_exposure(wanted));
         let palette = Palette::new(ColorBy::Occupancy);
         let seen = (self.surface_image()?, &shown);
         show_surfaces::record(
             &self.gpu,
             frame,
             seen,
-            (look.surface, look.tone_curve),
+            (look.surface, look.tone_curve, exposure),
             (&view, &palette, &params),
             picture,
         );

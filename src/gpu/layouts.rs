@@ -13,6 +13,7 @@ use crate::stages::build::scan::ScanParams;
 use crate::stages::cones::blur::BlurParams;
 use crate::stages::cones::diffuse::DiffuseParams;
 use crate::stages::cones::glossy_tiles::GlossyParams;
+use crate::stages::cones::list_tiles::ListParams;
 use crate::stages::cones::specular::SpecularParams;
 use crate::stages::cones::upsample::UpsampleParams;
 use crate::stages::light::gather::{ConeParams, ConeShape};
@@ -23,6 +24,7 @@ use crate::stages::mesh::{DrawParams, MeshVertex, TextureSlot, VertexJoints};
 use crate::stages::sample::sample_points::PointParams;
 use crate::stages::surface::compose::ComposeParams;
 use crate::stages::surface::draw::SurfaceParams;
+use crate::stages::surface::mean_luminance::PictureExposure;
 use crate::stages::surface::sum_luminance::SumParams;
 use crate::stages::transform::{Matrix3x4, Part, TransformParams};
 use crate::stages::view::march_light::ExposureParams;
@@ -83,7 +85,7 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(LevelParams, "light/average_light.wgsl", "AverageLightParams", level),
     mirror!(ShowShadowParams, "view/show_shadow.wgsl", "ShowShadowParams", least, most, layers, map_px),
     mirror!(InjectParams, "light/inject.wgsl", "InjectParams", emission_nits),
-    mirror!(ExposureParams, "view/march_light.wgsl", "ExposureParams", factor),
+    mirror!(ExposureParams, "view/march_light.wgsl", "ExposureParams", factor, automatic),
     mirror!(ShadowFrame, "shared/shadow_frame.wgsl", "ShadowFrame", clip_from_grid, distance),
     mirror!(ShadowParams, "shared/shadow_map.wgsl", "ShadowParams", frames, count, size_px, pad),
     mirror!(
@@ -122,7 +124,9 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(SliceParams, "view/slice.wgsl", "SliceParams", axis, height_cells, at, flags, least, most, pad,),
     mirror!(ComposeParams, "surface/compose.wgsl", "ComposeParams", sky, glossy_roughness, span, pad, pad_end),
     mirror!(SumParams, "surface/sum_luminance.wgsl", "SumParams", pixels),
-    mirror!(ShowSurfacesParams, "view/show_surfaces.wgsl", "ShowSurfacesParams", exposure, least, most, sky),
+    mirror!(ShowSurfacesParams, "view/show_surfaces.wgsl", "ShowSurfacesParams", least, most, sky, pad),
+    mirror!(PictureExposure, "shared/picture_exposure.wgsl", "PictureExposure", factor, mean, pad),
+    mirror!(ListParams, "cones/list_tiles.wgsl", "ListParams", tiles),
     mirror!(PointParams, "sample/sample_points.wgsl", "PointParams", direction, pad),
     mirror!(
         ViewParams,

@@ -8,10 +8,10 @@ use octolume::stages::surface::brdf_ref;
 use octolume::stages::surface::compose::{self, ComposeParams, Terms};
 use octolume::stages::surface::compose_ref::{self, Light};
 use octolume::stages::surface::sum_luminance::{self, SUM_BYTES};
-use octolume::stages::surface::sum_luminance_ref;
+use octolume::stages::surface::{mean_luminance_ref, sum_luminance_ref};
 use octolume::stages::view::camera::PixelRays;
 use octolume::stages::view::palette::legend_value;
-use octolume::stages::view::show_surfaces::{self, ShowSurfacesParams};
+use octolume::stages::view::show_surfaces::{self, ShowSurfacesParams, ShownExposure};
 use octolume::stages::view::{NO_DEPTH, Palette, Picture, ViewParams, show_surfaces_ref};
 use wgpu::BufferUsages;
 
@@ -32,6 +32,8 @@ const ALL: [SurfaceView; 10] = [
 ];
 const GLOSSY: f64 = 0.5;
 const SPAN: f64 = 0.25;
+/// Of pictures of light.
+const EXPOSURE: f64 = 0.02;
 const SKY: [f32; 3] = [3.0, 5.0, 9.0];
 
 /// Random surfaces in random light; every seventh pixel sees none.
@@ -154,7 +156,7 @@ fn the_mean_luminance_is_geometric_and_counts_what_shines() {
         let mut frame = Recorder::default();
         sum_luminance::record(gpu, &mut frame, pixels.len() as u32, &shown, &sums);
         Job::new(frame).run_to_end(gpu).expect("runs");
-        sum_luminance::mean_luminance(&gpu.read(&sums, 0..SUM_BYTES).expect("readable"))
+        mean_luminance_ref::mean_luminance(&gpu.read(&sums, 0..SUM_BYTES).expect("readable"))
     };
     // Weights of the channels sum to 1, and logarithms of up to 10 are summed, to a few last places of f32.
     assert!((mean(&pixels).expect("something shines") - 2.0).abs() < 1e-5);
@@ -167,7 +169,7 @@ fn the_mean_luminance_is_geometric_and_counts_what_shines() {
 fn pictures_are_exposed_and_curved_and_scales_end_where_they_should() {
     let gpu = gpu();
     let rig = rig(gpu);
-    let params = ShowSurfacesParams { exposure: 0.02, least: 2.0, most: 500.0, sky: 0 };
+    let params = ShowSurfacesParams { least: 2.0, most: 500.0, sky: 0, pad: 0 };
     for curve in [ToneCurve::Linear, ToneCurve::Reinhard, ToneCurve::Aces] {
         for surface in ALL {
             let values = rig.shown(gpu, surface);
@@ -177,12 +179,13 @@ fn pictures_are_exposed_and_curved_and_scales_end_where_they_should() {
             let palette = Palette::new(ColorBy::Occupancy);
             let seen = (&rig.image, &shown);
             let with = (&rig.view, &palette, &params);
-            show_surfaces::record(gpu, &mut frame, seen, (surface, curve), with, &picture);
+            let exposed = (surface, curve, ShownExposure::Set(EXPOSURE));
+            show_surfaces::record(gpu, &mut frame, seen, exposed, with, &picture);
             let picture = view_rig::seen(gpu, frame, &picture);
             for (i, [r, g, b, a]) in values.into_iter().enumerate().filter(|(_, value)| value[3] > 0.0) {
                 assert_eq!(picture.distances[i], rig.texels[i].distance_cells);
                 let value = DVec3::new(r.into(), g.into(), b.into());
-                let expected = match show_surfaces_ref::color(surface, value, params.exposure.into(), curve) {
+                let expected = match show_surfaces_ref::color(surface, value, EXPOSURE, curve) {
                     Some(color) => color,
                     None => {
                         let share = (500.0 - value.x) / 498.0;

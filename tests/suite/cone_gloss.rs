@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use octolume::data::surface_image::SurfaceTexel;
+use octolume::gpu::{Job, Recorder};
 use octolume::settings::{ConeTracing, Lookup};
 use octolume::stages::cones::glossy_tiles::{self, GlossyParams, TileBuffers};
 use octolume::stages::cones::glossy_tiles_ref::glossy_tiles;
@@ -27,8 +28,8 @@ fn listed(photo: &Photo, size_px: [u32; 2], most_roughness: f64) -> (TileBuffers
     run(gpu(), |frame| list = glossy_tiles::record(gpu(), frame, &photo.surfaces(), &params, &mut buffers).ok());
     let list = list.expect("buffers fit");
     let (counts, at) = list.count_at();
-    let words: Vec<u32> = read(gpu(), counts, at / 4 + 1);
-    let tiles = read(gpu(), &list.list, words[words.len() - 1].into());
+    let count = gpu().read::<u32>(counts, at..at + 4).expect("readable")[0];
+    let tiles = read(gpu(), &list.list, 1 + u64::from(count));
     (buffers, list, tiles)
 }
 
@@ -39,7 +40,7 @@ pub fn reflected(octree: &SampledOctree, photo: &Photo, settings: &ConeTracing, 
     let (_, list, tiles) = listed(photo, size_px, settings.glossy_roughness);
     let input = ConesInput { octree, surfaces: photo.surfaces() };
     let params = SpecularParams::new(settings, sky, size_px);
-    let tiles = (&list, tiles.len() as u32);
+    let tiles = (&list, tiles[0]);
     run(gpu(), |frame| specular::record(gpu(), frame, &input, (&Sampler::default(), &params), tiles, &image));
     read(gpu(), &image, image_bytes(size_px) / 16)
 }
@@ -71,9 +72,9 @@ fn tiles_are_listed_in_order_where_a_pixel_is_glossy() {
         let glossy: Vec<bool> =
             pixels.map(|pixel| is_glossy(photo.texel(source(&photo, pixel, small_px)), 0.6)).collect();
         let expected = list_tiles(&glossy_tiles(&glossy, small_px));
-        assert!(!expected.is_empty() && expected.len() < tile_count(small_px) as usize);
+        assert!((1..tile_count(small_px)).contains(&expected[0]));
         assert_eq!(listed(&photo, small_px, 0.6).2, expected);
-        assert!(listed(&photo, small_px, 0.2).2.is_empty());
+        assert_eq!(listed(&photo, small_px, 0.2).2, [0]);
     }
 }
 
@@ -103,6 +104,41 @@ fn specular_cones_match_the_reference() {
         compared += 1;
     }
     assert!(compared > 200, "{compared}");
+}
+
+#[test]
+fn cones_end_at_the_listed_tiles_and_at_the_room_for_them() {
+    let (photo, octree) = (scattered(), random_octree(41, 1500));
+    let settings = ConeTracing { glossy_roughness: 0.5, ..ConeTracing::default() };
+    let exact = reflected(&octree.sampled(Lookup::Ranks), &photo, &settings, SKY);
+    let (_, list, tiles) = listed(&photo, photo.size_px(), settings.glossy_roughness);
+    let params = SpecularParams::new(&settings, SKY, photo.size_px());
+    let sampled = octree.sampled(Lookup::Ranks);
+    let input = ConesInput { octree: &sampled, surfaces: photo.surfaces() };
+    let image = buffer(gpu(), "specular", image_bytes(photo.size_px()) / 4);
+    let traced = |room: u32| {
+        let mut frame = Recorder::default();
+        let with = (&Sampler::default(), &params);
+        specular::record(gpu(), &mut frame, &input, with, (&list, room), &image);
+        let timings = Job::new(frame).run_to_end(gpu()).expect("runs");
+        let pixels: Vec<[f32; 4]> = read(gpu(), &image, image_bytes(photo.size_px()) / 16);
+        (pixels, timings[1].threads, timings[1].bytes_moved)
+    };
+    let count = tiles[0];
+    let threads = u64::from(count) * 64;
+    for room in [count, count + 1, 3 * count + 100] {
+        assert!(traced(room) == (exact.clone(), threads, 48 * threads), "room for {room} of {count}");
+    }
+    let (few, threads, _) = traced(count - 1);
+    assert_eq!(threads, u64::from(count - 1) * 64);
+    let across = photo.size_px()[0].div_ceil(8);
+    let last = tiles[count as usize];
+    for (i, (few, exact)) in few.iter().zip(&exact).enumerate() {
+        let [x, y] = [i as u32 % photo.size_px()[0], i as u32 / photo.size_px()[0]];
+        let is_last = y / 8 * across + x / 8 == last;
+        assert_eq!(*few, if is_last { [0.0; 4] } else { *exact });
+    }
+    assert!(traced(0).0.iter().all(|pixel| *pixel == [0.0; 4]));
 }
 
 #[test]

@@ -10,6 +10,7 @@ use octolume::settings::lighting::Opacity;
 use octolume::settings::{AlphaRule, ColorBy, Filter};
 use octolume::stages::light::shadow::{ShadowMap, ShadowParams};
 use octolume::stages::view::camera::PixelRays;
+use octolume::stages::view::march_light::Exposure;
 use octolume::stages::view::march_ref::{self, Shown};
 use octolume::stages::view::palette::legend_value;
 use octolume::stages::view::{
@@ -35,10 +36,10 @@ fn lit(gpu: &Gpu) -> (LightRig, Vec<[f32; 4]>) {
     (rig, stored)
 }
 
-fn shown_cells(rig: &LightRig, stored: &[[f32; 4]], level: u32) -> HashMap<IVec3, Shown> {
+fn shown_cells(rig: &LightRig, stored: &[[f32; 4]], factor: f64, level: u32) -> HashMap<IVec3, Shown> {
     let inner = rig.built.params.inner_node_count as usize;
     let at = |cell: [u32; 3]| IVec3::from_array(cell.map(|c| c as i32));
-    let shown = |entry: usize| march_light_ref::shown(stored[entry].map(f64::from), FACTOR);
+    let shown = |entry: usize| march_light_ref::shown(stored[entry].map(f64::from), factor);
     if level == rig.built.params.depth {
         return rig.slots.iter().map(|(cell, slot)| (at(*cell), shown(inner + slot))).collect();
     }
@@ -59,11 +60,36 @@ fn light_at_every_level_matches_the_reference() {
         let picture = Picture::new(gpu(), SIZE_PX).expect("fits");
         let mut recorder = Recorder::default();
         let view = ViewParams::new(&rays, &look, depth);
-        march_light::record(gpu(), &mut recorder, &rig.octree, (&light, FACTOR as f32), &view, &picture);
+        march_light::record(gpu(), &mut recorder, &rig.octree, (&light, Exposure::Set(FACTOR)), &view, &picture);
         let rules = crate::view_rig::rules(&look, depth, level);
-        let cells = shown_cells(&rig, &stored, level);
+        let cells = shown_cells(&rig, &stored, FACTOR, level);
         assert_matches(&seen(gpu(), recorder, &picture), &rays, 1 << depth, |ray| {
             march_ref::pixel(ray, 1 << level, &rules, |cell| cells.get(&cell).copied())
+        });
+    }
+}
+
+#[test]
+fn without_an_exposure_the_mean_light_is_shown_as_it_should_be() {
+    let (rig, mut stored) = lit(gpu());
+    let (grid, depth) = (grid(4), 4);
+    let rays = PixelRays::new(&camera(&grid, DVec3::new(1.0, 0.5, 1.3), 1.4), &grid, SIZE_PX);
+    let look = look(ColorBy::Radiance, AlphaRule::Length);
+    for dark in [false, true] {
+        if dark {
+            stored.iter_mut().for_each(|[r, g, b, _]| [*r, *g, *b] = [0.0; 3]);
+        }
+        let light = upload(gpu(), "light", &stored);
+        let picture = Picture::new(gpu(), SIZE_PX).expect("fits");
+        let mut recorder = Recorder::default();
+        let view = ViewParams::new(&rays, &look, depth);
+        march_light::record(gpu(), &mut recorder, &rig.octree, (&light, Exposure::OfMean), &view, &picture);
+        let rules = crate::view_rig::rules(&look, depth, depth);
+        let factor = march_light_ref::factor_of_mean(stored[0].map(f64::from));
+        assert_eq!(factor == 1.0, dark);
+        let cells = shown_cells(&rig, &stored, factor, depth);
+        assert_matches(&seen(gpu(), recorder, &picture), &rays, 1 << depth, |ray| {
+            march_ref::pixel(ray, 1 << depth, &rules, |cell| cells.get(&cell).copied())
         });
     }
 }
@@ -109,7 +135,7 @@ fn a_lit_voxel_is_shown_as_bright_as_it_is() {
     let rig = LightRig::new(gpu(), &[full([4, 4, 4], DVec3::Y, [255; 3])], &Shape::new(3, 2, Filter::Nearest));
     let stored = rig.stored(gpu(), &[[0.0; 3]], &[[2.0, 1.0, 0.0]], Opacity::Isotropic);
     for level in 0..=3 {
-        let shown = shown_cells(&rig, &stored, level);
+        let shown = shown_cells(&rig, &stored, FACTOR, level);
         let color = shown.values().next().expect("one cell").color;
         assert!((color - DVec3::new(2.0, 1.0, 0.0) * FACTOR).abs().max_element() < 1e-6, "level {level}: {color}");
     }

@@ -60,7 +60,8 @@ fn ordered(mut built: Built) -> Built {
 fn crowded(seed: u64) -> Vec<Fragment> {
     let mut voxels = random::scene(seed, 3000, DEPTH);
     // Too many for one thread.
-    voxels.extend(std::iter::repeat_n(voxels[0], 1500));
+    let q = [20, 21, 22].map(|cell| cell * random::ONE + 7);
+    voxels.extend(std::iter::repeat_n(Fragment { q, normal: [511, 511, 1022], albedo: [9; 3] }, 1500));
     voxels
 }
 

@@ -9,7 +9,7 @@ use octolume::settings::{AlphaRule, ColorBy, Filter, Lookup, Sampling, Slice, Sl
 use octolume::stages::sample::sample_points_ref::LitNodes;
 use octolume::stages::view::camera::{PixelRay, PixelRays};
 use octolume::stages::view::palette::legend_value;
-use octolume::stages::view::slice_ref::{meeting, share, value};
+use octolume::stages::view::slice_ref::{self, meeting, share, value};
 use octolume::stages::view::{BACKGROUND, NO_DEPTH, Palette, Picture, ViewParams, slice};
 
 use crate::device::gpu;
@@ -27,7 +27,7 @@ fn octree() -> LitBuild {
     LitBuild::new(gpu(), &random::scene(3, 6000, DEPTH), &Shape::new(DEPTH, 2, Filter::Split), light)
 }
 
-fn drawn(octree: &LitBuild, slice: &Slice, range: [f64; 2], rays: &PixelRays) -> Seen {
+fn drawn(octree: &LitBuild, slice: &Slice, range: Option<[f64; 2]>, rays: &PixelRays) -> Seen {
     let view = ViewParams::new(rays, &look(COLOR, AlphaRule::Paper), DEPTH);
     let picture = Picture::new(gpu(), SIZE_PX).expect("fits");
     let mut frame = Recorder::default();
@@ -51,10 +51,11 @@ fn colors(from: f64, to: f64) -> Vec<DVec3> {
 }
 
 /// Every pixel is the reference's; those on which rays that f32 cannot tell apart disagree are few.
-fn assert_slice_matches(octree: &LitBuild, slice: &Slice, range: [f64; 2], camera: &OrbitCamera) {
+fn assert_slice_matches(octree: &LitBuild, slice: &Slice, given: Option<[f64; 2]>, camera: &OrbitCamera) {
     let rays = PixelRays::new(camera, &grid(DEPTH), SIZE_PX);
-    let picture = drawn(octree, slice, range, &rays);
+    let picture = drawn(octree, slice, given, &rays);
     let lit = octree.lit(Opacity::Isotropic);
+    let range = given.unwrap_or_else(|| slice_ref::range(slice, root(octree)));
     let background = DVec3::from_array(BACKGROUND.map(|c| gamma_from_linear(c.into())));
     let (mut blurry, mut shown) = (0, 0);
     for (index, point) in pixels() {
@@ -95,10 +96,33 @@ fn every_value_and_sampling_matches_the_reference() {
         ] {
             for width_cells in [1.0, 2.7] {
                 let slice = Slice { sampling, value, logarithmic, width_cells, height: 0.43, ..Slice::default() };
-                assert_slice_matches(&octree, &slice, range, &camera);
+                assert_slice_matches(&octree, &slice, Some(range), &camera);
             }
         }
     }
+}
+
+/// The stored root.
+fn root(octree: &LitBuild) -> [f64; 4] {
+    let stored: Vec<[f32; 4]> = gpu().read(&octree.light, 0..16).expect("readable");
+    stored[0].map(f64::from)
+}
+
+#[test]
+fn without_a_range_the_mean_light_makes_one() {
+    let mut octree = octree();
+    let camera = camera(&grid(DEPTH), DVec3::new(0.7, 1.0, 0.9), 1.3);
+    for light in [3.0, 0.0] {
+        octree.relight(gpu(), |cell, a| (DVec3::from_array(cell.map(|c| light * (0.1 + f64::from(c % 7)))), a));
+        for logarithmic in [true, false] {
+            let slice = Slice { logarithmic, height: 0.43, ..Slice::default() };
+            assert_slice_matches(&octree, &slice, None, &camera);
+        }
+    }
+    let occupancy = Slice { value: SliceValue::Occupancy, logarithmic: false, ..Slice::default() };
+    let rays = PixelRays::new(&camera, &grid(DEPTH), SIZE_PX);
+    let pictures = [None, Some([0.0, 1.0])].map(|range| drawn(&octree, &occupancy, range, &rays).colors);
+    assert!(pictures[0] == pictures[1], "shares need no mean");
 }
 
 #[test]
@@ -109,7 +133,7 @@ fn every_axis_and_height_matches_the_reference() {
         // At the grid's faces half of each sample is outside.
         for height in [0.0, 0.5, 1.0] {
             let slice = Slice { axis, height, value: SliceValue::Occupancy, width_cells: 4.0, ..Slice::default() };
-            assert_slice_matches(&octree, &slice, [1e-3, 1.0], &camera);
+            assert_slice_matches(&octree, &slice, Some([1e-3, 1.0]), &camera);
         }
     }
 }
@@ -119,7 +143,7 @@ fn every_look_up_draws_the_same_picture() {
     let octree = octree();
     let rays = PixelRays::new(&camera(&grid(DEPTH), DVec3::new(0.3, 1.0, 0.2), 1.1), &grid(DEPTH), SIZE_PX);
     let pictures = [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers].map(|lookup| {
-        let seen = drawn(&octree, &Slice { lookup, width_cells: 1.6, ..Slice::default() }, [0.01, 10.0], &rays);
+        let seen = drawn(&octree, &Slice { lookup, width_cells: 1.6, ..Slice::default() }, Some([0.01, 10.0]), &rays);
         (seen.colors, seen.distances)
     });
     assert!(pictures.windows(2).all(|pair| pair[0] == pair[1]));
@@ -135,10 +159,10 @@ fn a_plane_seen_edge_on_or_from_behind_is_background() {
     };
     let rays = PixelRays::new(&inside, &grid(DEPTH), SIZE_PX);
     let behind = Slice { height: 0.25, value: SliceValue::Occupancy, ..Slice::default() };
-    assert!(drawn(&octree, &behind, [0.0, 1.0], &rays).distances.iter().all(|distance| *distance == NO_DEPTH));
+    assert!(drawn(&octree, &behind, Some([0.0, 1.0]), &rays).distances.iter().all(|distance| *distance == NO_DEPTH));
     let level = camera(&grid(DEPTH), DVec3::X, 1.5);
     let rays = PixelRays::new(&level, &grid(DEPTH), SIZE_PX);
-    let seen = drawn(&octree, &Slice { height: 0.5, ..behind }, [0.0, 1.0], &rays);
+    let seen = drawn(&octree, &Slice { height: 0.5, ..behind }, Some([0.0, 1.0]), &rays);
     let middle = SIZE_PX[1] / 2 * SIZE_PX[0];
     let row = &seen.distances[middle as usize..][..SIZE_PX[0] as usize];
     assert!(row.iter().all(|distance| *distance == NO_DEPTH), "the rays of the middle row lie in the plane");

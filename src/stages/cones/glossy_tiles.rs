@@ -34,16 +34,14 @@ pub struct TileBuffers {
 /// Where a list of tiles lies.
 #[derive(Clone, Debug)]
 pub struct TileList {
-    /// Numbers of the listed tiles, a word each.
+    /// How many there are, then their numbers, a word each.
     pub list: GpuBuffer,
-    ranks: GpuBuffer,
-    words: u32,
 }
 
 impl TileList {
     /// Buffer and byte at which the count of listed tiles lies, one word, once the recording has run.
     pub fn count_at(&self) -> (&GpuBuffer, u64) {
-        (&self.ranks, 4 * u64::from(self.words))
+        (&self.list, 0)
     }
 }
 
@@ -58,8 +56,8 @@ pub fn record(
     let words = params.tiles.div_ceil(u32::BITS);
     let bits = buffers.bits.ensure(gpu, "glossy tiles", 4 * u64::from(words))?;
     let ranks = buffers.ranks.ensure(gpu, "glossy tile ranks", 4 * u64::from(words + 1))?;
-    let list = buffers.list.ensure(gpu, "glossy tile list", 4 * u64::from(params.tiles))?;
-    frame.clear(&bits);
+    let list = buffers.list.ensure(gpu, "glossy tile list", 4 * u64::from(params.tiles + 1))?;
+    frame.clear_part(&bits, 4 * u64::from(words));
     let pass = frame.pass(&gpu.kernel("cones/glossy_tiles.wgsl", &[]));
     surfaces
         .bind(pass)
@@ -69,5 +67,5 @@ pub fn record(
         .dispatch(params.tiles.into());
     scan::record(gpu, frame, (Scanned::Bits, words), &bits, &ranks, &mut buffers.sums)?;
     list_tiles::record(gpu, frame, params.tiles, (&bits, &ranks), &list);
-    Ok(TileList { list, ranks, words })
+    Ok(TileList { list })
 }

@@ -12,8 +12,8 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::glossy_tiles::TileList;
-use super::{ConesInput, TILE_PX};
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use super::{ConesInput, TILE_PX, image_bytes};
+use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
 use crate::settings::ConeTracing;
 use crate::stages::light::gather::{ConeShape, Cones};
 use crate::stages::sample::Sampler;
@@ -56,19 +56,19 @@ pub fn aperture_degrees(roughness: f64) -> f64 {
     (4.0 * (roughness * roughness).atan()).to_degrees().clamp(NARROWEST_DEGREES, WIDEST_DEGREES)
 }
 
-/// Writes the pixels of `listed` tiles into `specular`, a vec4 a pixel of `params.size_px`, after clearing it.
+/// Writes the pixels of listed tiles, the first `room_tiles` at most, into `specular`, a vec4 a pixel of `params.size_px`, after clearing it.
 /// Nodes are found by rank, whatever the sampler's look-up; the values are the same.
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
     input: &ConesInput<'_>,
     (sampler, params): (&Sampler, &SpecularParams),
-    (tiles, listed): (&TileList, u32),
+    (tiles, room_tiles): (&TileList, u32),
     specular: &GpuBuffer,
 ) {
-    frame.clear(specular);
+    frame.clear_part(specular, image_bytes(params.size_px));
     let octree = input.octree;
-    let threads = u64::from(listed) * u64::from(TILE_PX * TILE_PX);
+    let threads_of = |tiles: u32| u64::from(tiles) * u64::from(TILE_PX * TILE_PX);
     let [filter, directional] = sampler.value_constants();
     let constants = [filter, directional, ("HORIZON", 1.0)];
     let pass = frame.pass(&gpu.kernel("cones/specular.wgsl", &constants));
@@ -84,8 +84,11 @@ pub fn record(
         .bind("light", &octree.light)
         .bind("list", &tiles.list)
         .bind("specular", specular)
-        .bytes_moved(3 * RADIANCE_BYTES * threads)
-        .dispatch(threads);
+        .counted(&tiles.list, move |listed: &u32| {
+            let threads = threads_of(room_tiles.min(*listed));
+            Counted { threads, bytes: 3 * RADIANCE_BYTES * threads }
+        })
+        .dispatch(threads_of(room_tiles));
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! posed triangles ─► draw (surface image) ─► emission ─► direct or direct_march (a light each) ─► compose ─► sum_luminance
-//!                          └─► cones: diffuse, specular ────────────────────────────────────────▲   └─► view::show_surfaces
+//!                          └─► cones: diffuse, specular ────────────────────────────────────────▲   └─► view::show_surfaces ◄── mean_luminance ◄──┘
 //! ```
 //!
 //! Radiance is kept in a buffer of four floats a pixel, rows from the top: linear RGB in nits, and 1 where
@@ -19,6 +19,8 @@ pub mod direct_ref;
 pub mod draw;
 pub mod emission;
 pub mod emission_ref;
+pub mod mean_luminance;
+pub mod mean_luminance_ref;
 pub mod sum_luminance;
 pub mod sum_luminance_ref;
 

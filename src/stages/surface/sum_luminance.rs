@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 
-/// Each writes a sum and a count, which the CPU adds in f64.
+/// Each writes a sum and a count, which `mean_luminance` adds up.
 pub const SUM_THREADS: u32 = 1024;
 pub const SUM_BYTES: u64 = 8 * SUM_THREADS as u64;
 
@@ -24,11 +24,4 @@ pub fn record(gpu: &Gpu, frame: &mut Recorder, pixels: u32, shown: &GpuBuffer, s
         .bind("sums", sums)
         .bytes_moved(16 * u64::from(pixels))
         .dispatch(SUM_THREADS.into());
-}
-
-/// The geometric mean; `None` where nothing shines.
-pub fn mean_luminance(sums: &[[f32; 2]]) -> Option<f64> {
-    let [sum, count] =
-        sums.iter().fold([0.0, 0.0], |[sum, count], part| [sum + f64::from(part[0]), count + f64::from(part[1])]);
-    (count > 0.0).then(|| (sum / count).exp2())
 }

@@ -11,14 +11,32 @@ use crate::stages::light::LitOctree;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct ExposureParams {
     pub factor: f32,
+    pub automatic: u32,
 }
 
-/// `light`: radiance or irradiance of all nodes, shown times `factor`.
+/// What light is multiplied by before it is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Exposure {
+    Set(f64),
+    /// The mean of all light that is stored is shown as [`super::MEAN_SHOWN_AS`]; 1 where there is none.
+    OfMean,
+}
+
+impl ExposureParams {
+    pub fn new(exposure: Exposure) -> Self {
+        match exposure {
+            Exposure::Set(factor) => Self { factor: factor as f32, automatic: 0 },
+            Exposure::OfMean => Self { factor: 1.0, automatic: 1 },
+        }
+    }
+}
+
+/// `light`: radiance or irradiance of all nodes.
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
     octree: &LitOctree,
-    (light, factor): (&GpuBuffer, f32),
+    (light, exposure): (&GpuBuffer, Exposure),
     view: &ViewParams,
     picture: &Picture,
 ) {
@@ -26,7 +44,7 @@ pub fn record(
         .pass(&gpu.kernel("view/march_light.wgsl", &[]))
         .bind("octree", &octree.sizes.buffer)
         .uniform("view", view)
-        .uniform("exposure", &ExposureParams { factor })
+        .uniform("exposure", &ExposureParams::new(exposure))
         .bind("leaf_bits", &octree.leaf_bits)
         .bind("occupied", &octree.occupied)
         .bind("blocks", &octree.blocks)

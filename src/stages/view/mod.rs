@@ -50,6 +50,9 @@ pub const SHORT_NORMAL: f64 = 0.1;
 pub const EDGE_SHADE: f64 = 0.45;
 pub const EDGE_FROM_PX: f64 = 4.0;
 pub const EDGE_FULL_PX: f64 = 10.0;
+/// Mean light is shown as this without an exposure of one's own: mean voxels are mostly in shadow, so that what
+/// is lit comes out bright.
+pub const MEAN_SHOWN_AS: f64 = 0.18;
 /// Linear.
 pub const BACKGROUND: [f32; 3] = [0.022, 0.025, 0.03];
 /// Distance of a pixel where less than half of the light is stopped.

@@ -6,6 +6,7 @@ use super::{Palette, Picture, ViewParams};
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 use crate::settings::{SurfaceView, ToneCurve};
+use crate::stages::surface::mean_luminance::PictureExposure;
 
 pub const SHOWS_VALUE: u32 = 0;
 pub const SHOWS_LIGHT: u32 = 1;
@@ -23,12 +24,20 @@ pub const ACES: [f64; 5] = [2.51, 0.03, 2.43, 0.59, 0.14];
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct ShowSurfacesParams {
-    pub exposure: f32,
     /// Ends of the scale of depths, scene units.
     pub least: f32,
     pub most: f32,
     /// 1: where no surface is, the sky shines.
     pub sky: u32,
+    pub pad: u32,
+}
+
+/// What light is multiplied by.
+#[derive(Clone, Copy, Debug)]
+pub enum ShownExposure<'a> {
+    Set(f64),
+    /// As [`crate::stages::surface::mean_luminance`] left it.
+    Measured(&'a GpuBuffer),
 }
 
 /// `shown`: what `surface::compose` wrote.
@@ -36,13 +45,18 @@ pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
     (surfaces, shown): (&SurfaceImage, &GpuBuffer),
-    (shown_as, curve): (SurfaceView, ToneCurve),
+    (shown_as, curve, exposure): (SurfaceView, ToneCurve, ShownExposure<'_>),
     (view, palette, params): (&ViewParams, &Palette, &ShowSurfacesParams),
     picture: &Picture,
 ) {
     let constants = [("SHOWS", f64::from(shows(shown_as))), ("CURVE", f64::from(curve_number(curve)))];
-    frame
-        .pass(&gpu.kernel("view/show_surfaces.wgsl", &constants))
+    let pass = frame.pass(&gpu.kernel("view/show_surfaces.wgsl", &constants));
+    let exposed = match (shows(shown_as), exposure) {
+        (SHOWS_LIGHT, ShownExposure::Set(factor)) => pass.uniform("exposure", &PictureExposure::set(factor)),
+        (SHOWS_LIGHT, ShownExposure::Measured(buffer)) => pass.bind("exposure", buffer),
+        _ => pass.uniform("exposure", &PictureExposure::set(1.0)),
+    };
+    exposed
         .uniform("view", view)
         .uniform("params", params)
         .uniform("palette", palette)

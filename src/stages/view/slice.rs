@@ -10,6 +10,14 @@ use crate::stages::sample::{SampledOctree, Sampler};
 
 pub const SLICE_OCCUPANCY: u32 = 1;
 pub const SLICE_LOGARITHMIC: u32 = 2;
+pub const SLICE_OF_MEAN: u32 = 4;
+
+/// Ends of a scale around the mean light, in means: light spans many powers of two.
+const LOGARITHMIC_MEANS: [f64; 2] = [1.0 / 256.0, 16.0];
+const LINEAR_MEANS: [f64; 2] = [0.0, 8.0];
+/// Of a scale of occupancies.
+const LOGARITHMIC_SHARES: [f64; 2] = [1.0 / 4096.0, 1.0];
+const LINEAR_SHARES: [f64; 2] = [0.0, 1.0];
 
 /// Mirror of `SliceParams` in shaders/view/slice.wgsl.
 #[repr(C)]
@@ -26,9 +34,11 @@ pub struct SliceParams {
 
 impl SliceParams {
     /// For a grid of 2^`depth` cells an axis; `range`: values at the scale's ends, both above zero where
-    /// it is logarithmic.
-    pub fn new(slice: &Slice, depth: u32, range: [f64; 2]) -> Self {
+    /// it is logarithmic; `None`: as [`range_of_mean`] has them.
+    pub fn new(slice: &Slice, depth: u32, range: Option<[f64; 2]>) -> Self {
         let flag = |on: bool, bit: u32| if on { bit } else { 0 };
+        // A mean of 1 leaves the means that the ends are.
+        let [least, most] = range.unwrap_or_else(|| range_of_mean(slice, None));
         let axis = match slice.axis {
             SliceAxis::X => 0,
             SliceAxis::Y => 1,
@@ -43,9 +53,10 @@ impl SliceParams {
             height_cells: (slice.height * f64::from(1_u32 << depth)) as f32,
             at: at as f32,
             flags: flag(slice.value == SliceValue::Occupancy, SLICE_OCCUPANCY)
-                | flag(slice.logarithmic, SLICE_LOGARITHMIC),
-            least: range[0] as f32,
-            most: range[1] as f32,
+                | flag(slice.logarithmic, SLICE_LOGARITHMIC)
+                | flag(range.is_none() && slice.value != SliceValue::Occupancy, SLICE_OF_MEAN),
+            least: least as f32,
+            most: most as f32,
             pad: [0; 2],
         }
     }
@@ -56,12 +67,25 @@ pub fn sampled_level(slice: &Slice, depth: u32) -> u32 {
     depth - (slice.width_cells.log2().round().max(0.0) as u32).min(depth)
 }
 
-/// `octree` has the light that is shown, radiance or irradiance, and the pointers of the slice's look-up.
+/// Ends of the scale where none are given: around the luminance of the mean light, 1 where there is none;
+/// occupancy has ends of its own.
+pub fn range_of_mean(slice: &Slice, mean: Option<f64>) -> [f64; 2] {
+    let is_light = slice.value != SliceValue::Occupancy;
+    match (is_light, slice.logarithmic) {
+        (true, true) => LOGARITHMIC_MEANS.map(|means| means * mean.unwrap_or(1.0)),
+        (true, false) => LINEAR_MEANS.map(|means| means * mean.unwrap_or(1.0)),
+        (false, true) => LOGARITHMIC_SHARES,
+        (false, false) => LINEAR_SHARES,
+    }
+}
+
+/// `octree` has the light that is shown, radiance or irradiance, and the pointers of the slice's look-up. Without
+/// a `range`, that light's own mean makes it.
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
     octree: &SampledOctree,
-    (slice, range): (&Slice, [f64; 2]),
+    (slice, range): (&Slice, Option<[f64; 2]>),
     (view, palette): (&ViewParams, &Palette),
     picture: &Picture,
 ) {

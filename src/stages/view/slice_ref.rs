@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::camera::PixelRay;
+use super::march_light_ref;
 use super::slice::sampled_level;
 use crate::color::luminance;
 use crate::settings::{Sampling, Slice, SliceAxis, SliceValue};
@@ -40,6 +41,12 @@ pub fn value(slice: &Slice, lit: &LitNodes, place: DVec3) -> Option<f64> {
     }
 }
 
+/// Ends of the scale of light that the root's mean makes.
+pub fn range(slice: &Slice, root: [f64; 4]) -> [f64; 2] {
+    let mean = march_light_ref::mean(root).unwrap_or(1.0);
+    if slice.logarithmic { [mean / 256.0, 16.0 * mean] } else { [0.0, 8.0 * mean] }
+}
+
 /// 0 to 1.
 pub fn share(slice: &Slice, value: f64, [least, most]: [f64; 2]) -> f64 {
     let share = match slice.logarithmic {
@@ -52,6 +59,17 @@ pub fn share(slice: &Slice, value: f64, [least, most]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_mean_lies_in_the_middle_of_what_it_makes_of_a_scale() {
+        let slice = Slice::default();
+        let root = [2.0, 2.0, 2.0, 0.5];
+        // Eight powers of two below, four above.
+        assert!((share(&slice, 4.0, range(&slice, root)) - 8.0 / 12.0).abs() < 1e-12);
+        let linear = Slice { logarithmic: false, ..slice };
+        assert!((share(&linear, 4.0, range(&linear, root)) - 1.0 / 8.0).abs() < 1e-12);
+        assert_eq!(range(&linear, [0.0; 4]), [0.0, 8.0]);
+    }
 
     #[test]
     fn scales_end_at_their_range() {
