@@ -17,11 +17,13 @@ pub struct Counted {
     pub bytes: u64,
 }
 
+type Tell = dyn Fn(&[u8]) -> Counted + Send + Sync;
+
 /// Where it is told, and how that is read.
 pub(super) struct CountedBy {
     buffer: GpuBuffer,
     bytes: u64,
-    what: Box<dyn Fn(&[u8]) -> Counted + Send + Sync>,
+    what: Box<Tell>,
 }
 
 impl fmt::Debug for CountedBy {

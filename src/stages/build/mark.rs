@@ -1,6 +1,7 @@
 //! Marks the leaves that voxels touch, and counts the weight that falls outside the grid.
 
-use crate::data::octree::OctreeSizes;
+use super::COUNTERS;
+use crate::data::octree::{OctreeSizes, mask_words};
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 use crate::settings::Filter;
 use crate::stages::transform::MovingVoxels;
@@ -15,8 +16,9 @@ pub fn record(
     counters: &GpuBuffer,
 ) {
     let threads = u64::from(voxels.threads());
-    frame.clear(leaf_bits);
-    frame.clear(counters);
+    let mask_bytes = 4 * u64::from(mask_words(octree.params.depth));
+    frame.clear_part(leaf_bits, mask_bytes);
+    frame.clear_part(counters, 8 * u64::from(COUNTERS));
     frame
         .pass(&gpu.kernel("build/mark.wgsl", &[("SPLIT", filter.is_split())]))
         .bind("octree", &octree.buffer)
@@ -25,6 +27,6 @@ pub fn record(
         .bind("world_voxels", &voxels.world_voxels)
         .bind("leaf_bits", leaf_bits)
         .bind("counters", counters)
-        .bytes_moved(threads * 16 + leaf_bits.bytes())
+        .bytes_moved(threads * 16 + mask_bytes)
         .dispatch(threads);
 }
