@@ -38,7 +38,11 @@ pub(super) struct Cost {
 
 impl Cost {
     pub fn ns_per_thread(&self) -> f64 {
-        if self.threads == 0.0 { FIRST_GUESS_NS_PER_THREAD } else { self.ns / self.threads }
+        if self.is_measured() { self.ns / self.threads } else { FIRST_GUESS_NS_PER_THREAD }
+    }
+
+    pub fn is_measured(&self) -> bool {
+        self.threads > 0.0
     }
 
     pub fn max_threads(&self) -> u64 {

@@ -22,6 +22,10 @@ const MIN_PART_OF_BUDGET: f64 = 0.1;
 /// Below the two seconds after which drivers give a GPU up, with room for wrong guesses.
 const UNWATCHED_BUDGET: Duration = Duration::from_millis(200);
 
+/// Drivers compile a kernel when it runs first, and the queue may stand still for seconds. Calls that submit nothing
+/// before that: a window sees after the first that there is work, and shows it before the second.
+const CALLS_BEFORE_FIRST_RUN: u32 = 2;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JobState {
     /// The part of all commands that is submitted, 0 to 1.
@@ -36,6 +40,8 @@ pub struct Job {
     /// First command that is not submitted completely, and how many of its units are.
     command: usize,
     unit: u64,
+    /// Calls that still submit nothing.
+    held_back: u32,
     slice: Option<Slice>,
     scratch: Option<Scratch>,
     timings: Vec<KernelTiming>,
@@ -57,12 +63,16 @@ impl Job {
     pub fn new(recorder: Recorder) -> Self {
         let commands = recorder.commands.iter().zip(&recorder.groups);
         let timings = commands.map(|(command, group)| command.timing(*group)).collect();
+        let is_new =
+            |command: &Command| command.shape().0 > 0 && command.cost().is_some_and(|cost| !lock(cost).is_measured());
+        let held_back = if recorder.commands.iter().any(is_new) { CALLS_BEFORE_FIRST_RUN } else { 0 };
         let counted = counted::buffers(&recorder.commands);
         let wanted_back = recorder.reads.iter().cloned().chain(counted).collect();
         Self {
             recorder,
             command: 0,
             unit: 0,
+            held_back,
             slice: None,
             scratch: None,
             timings,
@@ -84,6 +94,10 @@ impl Job {
         }
         gpu.poll()?;
         if !self.slice_finished(gpu) {
+            return Ok(self.running());
+        }
+        if self.held_back > 0 {
+            self.held_back -= 1;
             return Ok(self.running());
         }
         let pieces = self.take_pieces(budget);
