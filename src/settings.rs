@@ -117,6 +117,14 @@ pub enum Filter {
 }
 
 impl Filter {
+    /// The one it is compared with.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Nearest => Self::Split,
+            Self::Split => Self::Nearest,
+        }
+    }
+
     /// As the kernels' SPLIT override.
     pub fn is_split(self) -> f64 {
         f64::from(u8::from(self == Self::Split))

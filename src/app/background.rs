@@ -1,6 +1,7 @@
 //! Long CPU work on a thread of its own. Its end wakes the window; dropping it cancels it.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use crate::progress::Progress;
@@ -8,6 +9,7 @@ use crate::progress::Progress;
 pub struct Background<T> {
     progress: Arc<Progress>,
     result: Receiver<T>,
+    ended: Arc<AtomicBool>,
 }
 
 /// What became of the work.
@@ -24,14 +26,16 @@ impl<T: Send + 'static> Background<T> {
         let progress = Arc::new(Progress::default());
         let (sender, result) = channel();
         let (ctx, shared) = (ctx.clone(), Arc::clone(&progress));
+        let ended = Arc::new(AtomicBool::new(false));
+        let end = Arc::clone(&ended);
         std::thread::spawn(move || {
-            let wake = Wake(ctx);
+            let wake = Wake { ctx, end };
             // Nobody waits any more: the work was cancelled.
             let _ = sender.send(work(&shared));
             drop(sender);
             drop(wake);
         });
-        Self { progress, result }
+        Self { progress, result, ended }
     }
 
     pub fn poll(&self) -> Outcome<T> {
@@ -40,6 +44,11 @@ impl<T: Send + 'static> Background<T> {
             Err(TryRecvError::Empty) => Outcome::Running,
             Err(TryRecvError::Disconnected) => Outcome::Died,
         }
+    }
+
+    /// Whether [`Self::poll`] has an answer.
+    pub fn has_ended(&self) -> bool {
+        self.ended.load(Ordering::Acquire)
     }
 
     /// Asks the work to end; what it ends with still arrives.
@@ -60,11 +69,15 @@ impl<T> Drop for Background<T> {
 }
 
 /// Wakes the window also when the work panics.
-struct Wake(egui::Context);
+struct Wake {
+    ctx: egui::Context,
+    end: Arc<AtomicBool>,
+}
 
 impl Drop for Wake {
     fn drop(&mut self) {
-        self.0.request_repaint();
+        self.end.store(true, Ordering::Release);
+        self.ctx.request_repaint();
     }
 }
 

@@ -8,11 +8,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::background::{Background, Outcome};
+use super::pace::Pace;
 use crate::prepare::{ExactError, ExactVoxels, Prepared};
 use crate::settings::{MotionSettings, Settings, Visibility};
 
-/// An exact set that takes no longer than this is waited for.
-const BLINK: Duration = Duration::from_millis(250);
 /// A pose that stays this long rests.
 pub const REST: Duration = Duration::from_millis(200);
 
@@ -31,6 +30,7 @@ impl Posed {
 
 #[derive(Default)]
 pub struct ExactJob {
+    pub pace: Pace,
     running: Option<Running>,
     /// The pose of the set that the engine has.
     shown: Option<Posed>,
@@ -52,8 +52,8 @@ struct Running {
 pub struct ExactUpdate {
     /// The pose to show.
     pub posed: Posed,
-    /// `Some(None)`: the engine's set is of another pose now.
-    pub exact: Option<Option<Arc<ExactVoxels>>>,
+    /// A set that has just been made, of whatever pose.
+    pub exact: Option<Arc<ExactVoxels>>,
     /// What went wrong or was left out, a sentence each.
     pub warnings: Vec<String>,
 }
@@ -70,8 +70,8 @@ impl ExactJob {
         let mut update = ExactUpdate { posed: posed.clone(), ..ExactUpdate::default() };
         let same_scene = self.scene.as_ref().is_some_and(|old| Arc::ptr_eq(old, scene));
         if !looked_at || !same_scene {
-            update.exact = self.shown.is_some().then_some(None);
-            *self = Self { took: if same_scene { self.took } else { Duration::ZERO }, ..Self::default() };
+            let took = if same_scene { self.took } else { Duration::ZERO };
+            *self = Self { took, pace: self.pace, ..Self::default() };
             self.scene = Some(Arc::clone(scene));
             if !looked_at {
                 return update;
@@ -91,8 +91,18 @@ impl ExactJob {
         self.running.as_ref().map(|running| running.work.fraction())
     }
 
+    /// Whether its thread has not ended yet.
+    pub fn is_at_work(&self) -> bool {
+        self.running.as_ref().is_some_and(|running| !running.work.has_ended())
+    }
+
+    /// The exact set of the pose that is asked for is not there yet, whether its thread has begun or not.
+    pub fn is_behind(&self) -> bool {
+        self.wanted.is_some() && self.wanted != self.shown
+    }
+
     fn follows(&self) -> bool {
-        self.took <= BLINK
+        self.took <= self.pace.blink
     }
 
     fn collect(&mut self, update: &mut ExactUpdate) {
@@ -100,7 +110,7 @@ impl ExactJob {
         let outcome = running.work.poll();
         if matches!(outcome, Outcome::Running) {
             let stale = self.wanted.as_ref() != Some(&running.posed);
-            if stale && running.started.elapsed() > BLINK {
+            if stale && running.started.elapsed() > self.pace.blink {
                 self.took = running.started.elapsed();
                 self.running = None;
             }
@@ -110,11 +120,10 @@ impl ExactJob {
         self.took = running.started.elapsed();
         // A failed pose counts as shown: without an exact set, and not tried again.
         self.shown = Some(running.posed);
-        update.exact = Some(None);
         match outcome {
             Outcome::Done(Ok(exact)) => {
                 update.warnings.clone_from(&exact.warnings);
-                update.exact = Some(Some(Arc::new(exact)));
+                update.exact = Some(Arc::new(exact));
             }
             Outcome::Done(Err(ExactError::Cancelled(_))) | Outcome::Running => {}
             Outcome::Done(Err(error)) => update.warnings.push(error.to_string()),
@@ -148,7 +157,6 @@ impl ExactJob {
             update.posed = shown.clone();
         } else {
             self.shown = None;
-            update.exact = Some(None);
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use crate::engine::PassTiming;
 use crate::gpu::KernelTiming;
-use crate::plan::{FramePlan, Pass, Row, State};
 
 /// Frames kept.
 pub const LENGTH: usize = 120;
@@ -15,11 +15,12 @@ pub struct FrameHistory {
 
 impl FrameHistory {
     /// Adds a frame: of all results that are there, the times of those it made itself.
-    pub fn push(&mut self, timings: &[KernelTiming], plan: &FramePlan) {
+    pub fn push(&mut self, timings: &[PassTiming], frame: u64) {
         if self.gpu_ms.len() == LENGTH {
             self.gpu_ms.pop_front();
         }
-        self.gpu_ms.push_back(timings.iter().filter(|timing| has_run(timing, plan)).map(|timing| timing.ms).sum());
+        let own = timings.iter().filter(|timing| timing.frame == frame);
+        self.gpu_ms.push_back(own.map(|timing| timing.kernel.ms).sum());
     }
 
     /// GPU milliseconds of each frame, oldest first.
@@ -28,33 +29,32 @@ impl FrameHistory {
     }
 }
 
-/// Whether a frame of this plan ran the kernel itself. Clears and copies belong to the build.
-pub fn has_run(timing: &KernelTiming, plan: &FramePlan) -> bool {
-    let of_pass = |row: &Row| row.pass.kernels().contains(&timing.kernel.as_str());
-    let mut passes = plan.rows.iter().filter(|row| of_pass(row)).peekable();
-    if passes.peek().is_none() {
-        return plan.runs(Pass::MarkLeaves);
-    }
-    passes.any(|row| row.state == State::Run)
+/// A kernel's runs, added up.
+#[derive(Clone, Debug)]
+pub struct KernelSum {
+    pub timing: KernelTiming,
+    /// The last frame that ran it.
+    pub frame: u64,
 }
 
-pub fn total_ms(timings: &[KernelTiming]) -> f64 {
-    timings.iter().map(|timing| timing.ms).sum()
+pub fn total_ms(timings: &[PassTiming]) -> f64 {
+    timings.iter().map(|timing| timing.kernel.ms).sum()
 }
 
 /// Passes of one kernel added up, in order of their first run.
-pub fn by_kernel(timings: &[KernelTiming]) -> Vec<KernelTiming> {
+pub fn by_kernel(timings: &[PassTiming]) -> Vec<KernelSum> {
     let mut places = BTreeMap::new();
-    let mut kernels: Vec<KernelTiming> = Vec::new();
-    for timing in timings {
-        let place = *places.entry(timing.kernel.as_str()).or_insert(kernels.len());
+    let mut kernels: Vec<KernelSum> = Vec::new();
+    for PassTiming { frame, kernel, .. } in timings {
+        let place = *places.entry(kernel.kernel.as_str()).or_insert(kernels.len());
         match kernels.get_mut(place) {
             Some(sum) => {
-                sum.ms += timing.ms;
-                sum.bytes_moved += timing.bytes_moved;
-                sum.threads += timing.threads;
+                sum.timing.ms += kernel.ms;
+                sum.timing.bytes_moved += kernel.bytes_moved;
+                sum.timing.threads += kernel.threads;
+                sum.frame = sum.frame.max(*frame);
             }
-            None => kernels.push(timing.clone()),
+            None => kernels.push(KernelSum { timing: kernel.clone(), frame: *frame }),
         }
     }
     kernels
@@ -63,40 +63,37 @@ pub fn by_kernel(timings: &[KernelTiming]) -> Vec<KernelTiming> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Pass;
 
-    fn timing(kernel: &str, ms: f64) -> KernelTiming {
-        KernelTiming { group: 0, kernel: kernel.to_owned(), ms, bytes_moved: 4, threads: 1 }
+    fn timing(kernel: &str, ms: f64, frame: u64) -> PassTiming {
+        let kernel = KernelTiming { kernel: kernel.to_owned(), ms, bytes_moved: 4, threads: 1, group: 0 };
+        PassTiming { pass: Pass::MarkLeaves, frame, kernel }
     }
 
     #[test]
     fn passes_of_a_kernel_are_added_up_in_frame_order() {
-        let timings = [timing("b", 1.0), timing("a", 2.0), timing("b", 3.0)];
+        let timings = [timing("b", 1.0, 1), timing("a", 2.0, 1), timing("b", 3.0, 2)];
         let kernels = by_kernel(&timings);
         assert_eq!(kernels.len(), 2);
-        assert_eq!((kernels[0].kernel.as_str(), kernels[0].ms, kernels[0].bytes_moved), ("b", 4.0, 8));
+        let first = &kernels[0].timing;
+        assert_eq!((first.kernel.as_str(), first.ms, first.bytes_moved, kernels[0].frame), ("b", 4.0, 8, 2));
         assert_eq!(total_ms(&timings), 6.0);
-    }
-
-    fn plan(run: &[Pass]) -> FramePlan {
-        let state = |pass: &Pass| if run.contains(pass) { State::Run } else { State::Reuse };
-        FramePlan { rows: Pass::ALL.iter().map(|pass| Row { pass: *pass, state: state(pass), reason: "" }).collect() }
     }
 
     #[test]
     fn old_frames_are_forgotten() {
         let mut history = FrameHistory::default();
-        (0..LENGTH + 1)
-            .for_each(|frame| history.push(&[timing("build/mark", frame as f64)], &plan(&[Pass::MarkLeaves])));
+        (0..=LENGTH as u64).for_each(|frame| history.push(&[timing("build/mark", frame as f64, frame)], frame));
         assert_eq!(history.gpu_ms().len(), LENGTH);
         assert_eq!(history.gpu_ms().next(), Some(1.0));
     }
 
     #[test]
     fn a_frame_of_the_view_alone_counts_the_view_alone() {
-        let timings = [timing("clear leaf bits", 1.0), timing("build/mark", 2.0), timing("view/march", 4.0)];
+        let built = [timing("clear leaf bits", 1.0, 1), timing("build/mark", 2.0, 1)];
         let mut history = FrameHistory::default();
-        history.push(&timings, &plan(&[Pass::MarkLeaves, Pass::MarchVoxels]));
-        history.push(&timings, &plan(&[Pass::MarchVoxels]));
+        history.push(&[&built[..], &[timing("view/march", 4.0, 1)]].concat(), 1);
+        history.push(&[&built[..], &[timing("view/march", 4.0, 2)]].concat(), 2);
         assert_eq!(history.gpu_ms().collect::<Vec<_>>(), [7.0, 4.0]);
     }
 }

@@ -94,7 +94,8 @@ impl App {
 
     fn timeline_ui(&self, ui: &mut Ui) -> Vec<Command> {
         let clips = self.prepared().map_or(&[][..], |prepared| &prepared.scene.clips);
-        panels::timeline::ui(ui, clips, self.clip(), &self.settings.motion, &self.playback)
+        let shown_secs = self.stage.engine.moment_on_screen().map(|motion| motion.time_secs);
+        panels::timeline::ui(ui, (clips, self.clip()), (&self.settings.motion, shown_secs), &self.playback)
     }
 
     fn tree_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
@@ -188,7 +189,7 @@ impl App {
     fn measurements_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let stage = &self.stage;
         let mut commands = section(ui, "Timings", true, |ui| {
-            panels::timings::ui(ui, (&stage.timings, &stage.plan), &stage.history, &self.latency);
+            panels::timings::ui(ui, (&stage.timings, stage.last_frame), &stage.history, &self.latency);
             Vec::new()
         });
         let inspector = &mut self.desk.inspector;

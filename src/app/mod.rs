@@ -25,6 +25,7 @@ mod mentions;
 mod node_overlay;
 mod opening;
 mod outline;
+mod pace;
 mod panels;
 mod picture;
 mod playback;
@@ -50,6 +51,7 @@ use self::exact_job::ExactJob;
 use self::journal::{Journal, Severity};
 pub use self::latency::Latency;
 use self::loader::{Loader, Ready};
+pub use self::pace::Pace;
 use self::playback::Playback;
 pub use self::rescue::Kept;
 use self::rescue::Rescue;
@@ -58,6 +60,7 @@ use self::stage::Stage;
 use self::undo::Undo;
 use self::viewport::Viewport;
 use crate::disk_cache::DiskCache;
+use crate::engine::Engine;
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
 use crate::scene::Clip;
@@ -209,6 +212,21 @@ impl App {
         self.stage.engine.gpu()
     }
 
+    /// What draws the picture, and knows what is on screen.
+    pub fn engine(&self) -> &Engine {
+        &self.stage.engine
+    }
+
+    /// Another pace than that of a person at the window.
+    pub fn set_pace(&mut self, pace: Pace) {
+        (self.stage.pace, self.exact.pace) = (pace, pace);
+    }
+
+    /// The exact voxels of a pose are being made.
+    pub fn is_voxelizing(&self) -> bool {
+        self.exact.is_at_work()
+    }
+
     /// What the person has set.
     pub fn settings(&self) -> &Settings {
         &self.settings
@@ -216,7 +234,7 @@ impl App {
 
     /// Nothing is being opened, voxelized, built, drawn, traced or compared.
     pub fn is_settled(&self) -> bool {
-        let loading = self.loader.progress().is_some() || self.exact.fraction().is_some();
+        let loading = self.loader.progress().is_some() || self.exact.is_behind();
         !loading && self.stage.working().is_none() && !self.screenshots.is_busy() && !self.desk.reference.is_busy()
     }
 

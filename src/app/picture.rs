@@ -69,13 +69,14 @@ impl App {
             let update = self.exact.update(ui.ctx(), &ready.prepared, &Posed::of(&settings), looked_at);
             (settings.motion, settings.visibility) = (update.posed.motion, update.posed.visibility);
             if let Some(exact) = update.exact {
-                self.stage.set_exact(exact);
+                self.stage.offer_exact(exact);
             }
             for warning in update.warnings {
                 self.journal.note(Severity::Warning, warning);
             }
         }
-        let coarse = self.is_moving(clock_secs) && !self.screenshots.is_wanted();
+        let waits = self.screenshots.is_wanted() && !self.playback.is_playing();
+        let coarse = self.is_moving(clock_secs) && !waits;
         let coarseness = if coarse { viewport::coarseness(self.stage.ms_per_pixel(), full_px) } else { 1 };
         (settings, full_px.map(|edge| edge.div_ceil(coarseness)))
     }
@@ -104,10 +105,17 @@ impl App {
     }
 
     fn save_screenshot(&mut self, ctx: &egui::Context, settings: &Settings, full_px: [u32; 2]) {
-        if !self.screenshots.is_wanted() || self.stage.working().is_some() {
+        if !self.screenshots.is_wanted() {
             return;
         }
         let Some(ready) = &self.scene else { return self.screenshots.give_up() };
+        let scene = ready.prepared.scene.name.clone();
+        if self.playback.is_playing() {
+            return self.save_at_once(ctx, &scene);
+        }
+        if self.stage.working().is_some() {
+            return;
+        }
         let ready_px = self.stage.picture().map(GpuTexture::size_px);
         let is_ready = ready_px == Some(full_px) || self.stage.engine.shows_nothing();
         if !is_ready || self.exact.fraction().is_some() || self.desk.reference.is_behind() {
@@ -118,12 +126,29 @@ impl App {
             Some(Format::Picture) | None => self.shown_picture(settings),
         };
         match content {
-            Ok(content) => self.screenshots.save(ctx, content, &ready.prepared.scene.name),
-            Err(error) => {
-                self.screenshots.give_up();
-                self.journal.tell(Severity::Error, format!("no screenshot: {error}"));
-            }
+            Ok(content) => self.screenshots.save(ctx, content, &scene),
+            Err(error) => self.give_up_screenshot(&error),
         }
+    }
+
+    /// While a clip plays, the frame on screen, as it is there.
+    fn save_at_once(&mut self, ctx: &egui::Context, scene: &str) {
+        let engine = &self.stage.engine;
+        // Before the first picture there is nothing to save yet.
+        let Some(settings) = engine.settings_on_screen().cloned() else { return };
+        let content = match (self.screenshots.wanted(), self.stage.picture()) {
+            (Some(Format::Light), Some(picture)) => self.shown_light(picture.size_px()),
+            _ => engine.read_image().map(|picture| Content::Picture(picture, Box::new(settings))).map_err(Into::into),
+        };
+        match content {
+            Ok(content) => self.screenshots.save(ctx, content, scene),
+            Err(error) => self.give_up_screenshot(&error),
+        }
+    }
+
+    fn give_up_screenshot(&mut self, error: &anyhow::Error) {
+        self.screenshots.give_up();
+        self.journal.tell(Severity::Error, format!("no screenshot: {error}"));
     }
 
     fn shown_picture(&self, settings: &Settings) -> anyhow::Result<Content> {
@@ -170,6 +195,15 @@ impl App {
                 "What is shown is not in the grid; Alt+H shows everything"
             };
             painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(15.0), theme::WEAK);
+        } else if self.ghost_is_on_its_way() {
+            let text = "The ghost of this pose is on its way";
+            painter.text(
+                rect.center_top() + vec2(0.0, 14.0),
+                Align2::CENTER_TOP,
+                text,
+                FontId::proportional(13.0),
+                theme::WARNING,
+            );
         }
         let hint = "drag: orbit   right drag: pan   wheel: zoom   F: frame";
         legend::caption(&painter, rect.left_bottom() + vec2(14.0, -10.0), Align2::LEFT_BOTTOM, hint);
@@ -182,6 +216,15 @@ impl App {
             Some(most) => legend::differences(&painter, rect, self.settings.look.surface, most),
             None => legend::paint(&painter, rect, &self.settings.look, values),
         }
+    }
+
+    /// The picture on screen is not the ghost of the pose that is asked for.
+    fn ghost_is_on_its_way(&self) -> bool {
+        let engine = &self.stage.engine;
+        let of_pose = engine
+            .settings_on_screen()
+            .is_some_and(|shown| shown.look.view == View::Ghost && shown.motion == self.settings.motion);
+        self.settings.look.view == View::Ghost && !of_pose
     }
 
     /// The node that is looked at, over the picture, where its pointers are wanted.

@@ -2,26 +2,23 @@
 //! time, and keeps what the panels show of the last frame that ran.
 
 use std::sync::Arc;
-use std::time::Duration;
 
 use super::history::FrameHistory;
-use crate::engine::{AccuracyReport, Engine, EngineError, EngineState, OctreeReport};
-use crate::gpu::{Gpu, GpuTexture, KernelTiming};
-use crate::plan::{FramePlan, Pass};
+use super::pace::Pace;
+use crate::engine::{AccuracyReport, Engine, EngineError, EngineState, OctreeReport, PassTiming};
+use crate::gpu::{Gpu, GpuTexture};
+use crate::plan::{FramePlan, Part, Pass};
 use crate::prepare::{ExactVoxels, Prepared};
 use crate::settings::Settings;
 
-/// GPU time of a frame of the window that nobody touches.
-const BUDGET: Duration = Duration::from_millis(30);
-/// The same while input arrives: the next input waits for this, and for the frame after it.
-const BUDGET_UNDER_INPUT: Duration = Duration::from_millis(15);
-
 pub struct Stage {
     pub engine: Engine,
+    pub pace: Pace,
     pub history: FrameHistory,
-    /// Of the last frame that ran.
-    pub timings: Vec<KernelTiming>,
-    /// Of the last frame that had anything to do.
+    /// Of what is shown.
+    pub timings: Vec<PassTiming>,
+    /// The last frame that ran.
+    pub last_frame: u64,
     pub plan: FramePlan,
     /// Counts the results that were finished.
     pub results: u64,
@@ -62,8 +59,10 @@ impl Stage {
     pub fn new(gpu: Arc<Gpu>) -> Self {
         Self {
             engine: Engine::new(gpu),
+            pace: Pace::default(),
             history: FrameHistory::default(),
             timings: Vec::new(),
+            last_frame: 0,
             plan: FramePlan::default(),
             results: 0,
             builds: 0,
@@ -88,8 +87,9 @@ impl Stage {
         self.left_out.clear();
     }
 
-    pub fn set_exact(&mut self, exact: Option<Arc<ExactVoxels>>) {
-        self.engine.set_exact(exact);
+    /// Exact voxels of some pose: of the one that is shown, they are compared at once.
+    pub fn offer_exact(&mut self, exact: Arc<ExactVoxels>) {
+        self.engine.offer_exact(exact);
         self.asked = None;
     }
 
@@ -100,28 +100,34 @@ impl Stage {
         if size_px.contains(&0) || asked && !matches!(self.state, State::Working { .. }) {
             return Ok(());
         }
-        let budget = if input { BUDGET_UNDER_INPUT } else { BUDGET };
+        let budget = if input { self.pace.budget_under_input } else { self.pace.budget };
         match self.ask(settings, size_px, asked).and_then(|()| self.engine.advance(budget)) {
-            Ok(EngineState::Working { fraction }) => {
-                self.state = State::Working { fraction };
-                self.plan.clone_from(self.engine.plan());
-                if fraction >= 1.0 {
-                    self.finish();
-                }
-            }
-            Ok(EngineState::Idle) => {
-                self.state = State::Idle;
-                if self.engine.shows_nothing() {
-                    self.plan.clone_from(self.engine.plan());
-                }
-                self.take_results();
-            }
+            Ok(state) => self.advanced(state),
             Err(error) => {
                 self.state = State::Failed { error: error.to_string() };
                 return Err(error.to_string());
             }
         }
         Ok(())
+    }
+
+    fn advanced(&mut self, state: EngineState) {
+        let finished = self.engine.last_frame().filter(|(number, _)| *number > self.last_frame);
+        if let Some((number, plan)) = finished.map(|(number, plan)| (number, plan.clone())) {
+            (self.last_frame, self.plan) = (number, plan);
+            self.take_results();
+            self.note_costs();
+        }
+        self.state = match state {
+            EngineState::Working { fraction } => State::Working { fraction },
+            EngineState::Idle => {
+                if self.engine.shows_nothing() {
+                    self.plan.clone_from(self.engine.plan());
+                }
+                self.take_results();
+                State::Idle
+            }
+        };
     }
 
     fn ask(&mut self, settings: &Settings, size_px: [u32; 2], asked: bool) -> Result<(), EngineError> {
@@ -157,24 +163,24 @@ impl Stage {
         }
     }
 
-    /// The picture to show: a new one of another size only when it is finished, the first one at once.
+    /// The picture to show: the last one that was finished.
     pub fn picture(&self) -> Option<&GpuTexture> {
-        self.finished.as_ref().or(self.engine.image())
+        self.finished.as_ref()
     }
 
     pub fn ms_per_pixel(&self) -> f64 {
         self.ms_per_pixel
     }
 
-    /// Takes down what the frame has cost.
-    fn finish(&mut self) {
-        self.take_results();
+    /// Takes down what the last frame has cost.
+    fn note_costs(&mut self) {
         let building = [Pass::MarkLeaves, Pass::LinkNodes, Pass::AverageLight, Pass::Bounces];
         self.builds += u64::from(building.into_iter().any(|pass| self.plan.runs(pass)));
-        self.history.push(&self.timings, &self.plan);
-        let view = self.timings.iter().filter(|timing| timing.kernel.starts_with("view/"));
-        let view_ms: f64 = view.map(|timing| timing.ms).sum();
-        if let Some(picture) = &self.finished {
+        self.history.push(&self.timings, self.last_frame);
+        let drawn = self.timings.iter().filter(|timing| timing.frame == self.last_frame);
+        let view_ms: f64 =
+            drawn.filter(|timing| timing.pass.parts() == [Part::Picture]).map(|timing| timing.kernel.ms).sum();
+        if let Some(picture) = self.finished.as_ref().filter(|_| view_ms > 0.0) {
             let [width, height] = picture.size_px().map(f64::from);
             self.ms_per_pixel = view_ms / (width * height);
         }
@@ -182,8 +188,8 @@ impl Stage {
 
     fn take_results(&mut self) {
         self.results += 1;
-        self.timings = self.engine.timings();
-        self.octree = self.engine.octree_report();
+        self.timings = self.engine.timings().to_vec();
+        self.octree = self.engine.octree_report().cloned();
         self.accuracy = self.engine.accuracy();
         self.exposure = self.engine.exposure();
         self.value_range = self.engine.value_range();

@@ -79,7 +79,7 @@ impl Info {
         settings.check().map_err(Usage)?;
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         session.run(&settings, NO_PICTURE)?;
-        let levels = session.engine.octree_report().map(|report| report.levels).unwrap_or_default();
+        let levels = session.engine.octree_report().map(|report| report.levels.clone()).unwrap_or_default();
         let lights = light_facts::lights(&session.prepared, &settings)?;
         let facts = Facts::new(&session.prepared, &settings, lights, levels);
         if self.json { output::json(&facts) } else { output::result(&facts.text()) }

@@ -22,7 +22,6 @@ mod plan;
 mod reference;
 mod render;
 mod session;
-mod statistics;
 mod surface_times;
 mod values;
 mod view_values;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use octolume::settings::{ColorBy, Filter, Settings};
+use octolume::settings::{ColorBy, Settings};
 
 use super::look_options::LookOptions;
 use super::options::{Common, Moment};
@@ -15,7 +15,7 @@ use super::{Usage, output};
 pub struct Plan {
     /// A .gltf or .glb file, or the name of a built-in scene
     scene: PathBuf,
-    /// Prints JSON: a list of pass, state, reason
+    /// Prints JSON: a list of method, pass, state, reason
     #[arg(long)]
     json: bool,
     /// Plans the second frame after this change; otherwise the first
@@ -67,11 +67,10 @@ impl Plan {
         if self.json {
             return output::json(plan);
         }
-        let rows = plan
-            .rows
-            .iter()
-            .map(|row| vec![output::name_of(&row.pass), output::name_of(&row.state), row.reason.to_owned()]);
-        output::result(&output::table(&["pass", "state", "reason"], rows))
+        let rows = plan.rows.iter().map(|row| {
+            vec![row.method.to_string(), output::name_of(&row.pass), output::name_of(&row.state), row.reason.to_owned()]
+        });
+        output::result(&output::table(&["method", "pass", "state", "reason"], rows))
     }
 }
 
@@ -83,12 +82,7 @@ impl Change {
             Self::Camera => look.camera.get_or_insert_default().orbit(0.1, 0.0),
             Self::Time => motion.time_secs += 1.0 / 30.0,
             Self::Turn => motion.turn_degrees[1] += 1.0,
-            Self::Filter => {
-                discretization.filter = match discretization.filter {
-                    Filter::Nearest => Filter::Split,
-                    Filter::Split => Filter::Nearest,
-                }
-            }
+            Self::Filter => discretization.filter = discretization.filter.other(),
             Self::DenseLevel => {
                 let level = discretization.dense_level();
                 discretization.dense_level = if level == 0 { 1 } else { level - 1 };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use octolume::disk_cache::DiskCache;
 use octolume::engine::Engine;
-use octolume::gpu::Gpu;
+use octolume::gpu::{Gpu, KernelTiming};
 use octolume::prepare::{Prepared, Stores, prepare_with};
 use octolume::progress::Progress;
 use octolume::scene::load::{self, OpenOptions};
@@ -76,8 +76,13 @@ impl Session {
             prepared.exact(&settings.motion, &hidden, progress)
         })?;
         output::warnings(&exact.warnings);
-        self.engine.set_exact(Some(Arc::new(exact)));
+        self.engine.offer_exact(Arc::new(exact));
         Ok(())
+    }
+
+    /// What the kernels behind the last picture took, each from the frame that ran it.
+    pub fn kernel_times(&self) -> Vec<KernelTiming> {
+        self.engine.timings().iter().map(|timing| timing.kernel.clone()).collect()
     }
 }
 

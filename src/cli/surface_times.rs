@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use octolume::settings::Settings;
 
 use super::session::Session;
-use super::statistics::Spread;
+use octolume::spread::Spread;
 
 /// Milliseconds by kernel: of a run, or medians.
 pub type KernelMs = BTreeMap<String, f64>;
@@ -22,7 +22,7 @@ pub fn measure(
         session.engine.invalidate_surfaces();
         session.run(settings, size_px)?;
         let mut of_run = KernelMs::new();
-        for timing in session.engine.timings() {
+        for timing in session.kernel_times() {
             *of_run.entry(timing.kernel).or_default() += timing.ms;
         }
         measured.extend((run >= warmup).then_some(of_run));

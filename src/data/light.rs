@@ -24,13 +24,9 @@ pub const LIGHT_BYTES: u64 = 16;
 /// Bytes of three floats.
 pub const IRRADIANCE_BYTES: u64 = 12;
 
-/// The buffers of the light in one octree; none is made before it is needed.
+/// What leaves of one octree emit, and what it is made from.
 #[derive(Debug, Default)]
-pub struct LightBuffers {
-    pub light: Slot,
-    pub shown: Slot,
-    pub direct: Slot,
-    pub gathered: Slot,
+pub struct EmissionBuffers {
     pub leaf_emission: Slot,
     pub sorted_emission: Slot,
     pub emitting_blocks: Slot,

@@ -127,14 +127,17 @@ impl OctreeParams {
 
     /// A prediction from exact sizes: room for an eighth and [`ROOM`] more blocks of each level, and leaves.
     pub fn with_room(&self) -> Self {
-        let roomy = |count: u32, most: u32| count.saturating_add(count / 8).saturating_add(ROOM).min(most);
+        self.with_each(|count| count.saturating_add(count / 8).saturating_add(ROOM))
+    }
+
+    /// With other numbers of each level's blocks, and of leaves; a level has no more blocks than it has nodes.
+    pub fn with_each(&self, other: impl Fn(u32) -> u32) -> Self {
         let mut firsts = vec![0];
         for level in self.dense_level..self.depth {
-            // A level has no more blocks than it has nodes.
-            let blocks = roomy(self.block_count_of(level), 1 << (3 * level));
+            let blocks = other(self.block_count_of(level)).min(1 << (3 * level));
             firsts.push(firsts[firsts.len() - 1] + blocks);
         }
-        self.with_counts(&firsts, roomy(self.leaf_count, 1 << (3 * self.depth)))
+        self.with_counts(&firsts, other(self.leaf_count).min(1 << (3 * self.depth)))
     }
 
     /// Whether an octree of these sizes has place in one of those.

@@ -55,8 +55,13 @@ pub struct OctreeSizes {
 impl OctreeSizes {
     /// Exact ones, or a prediction: its shape holds, its counts until the GPU knows better.
     pub fn upload(gpu: &Gpu, params: &OctreeParams) -> Result<Self, GpuError> {
+        Self::write(gpu, &mut Slot::default(), params)
+    }
+
+    /// The same in a buffer that is kept.
+    pub fn write(gpu: &Gpu, slot: &mut Slot, params: &OctreeParams) -> Result<Self, GpuError> {
         let bytes = size_of::<OctreeParams>() as u64;
-        let buffer = gpu.buffer("octree sizes", bytes, wgpu::BufferUsages::UNIFORM)?;
+        let buffer = slot.ensure_as(gpu, "octree sizes", bytes, wgpu::BufferUsages::UNIFORM)?;
         gpu.write(&buffer, 0, bytemuck::bytes_of(params))?;
         Ok(Self { params: *params, buffer })
     }

@@ -18,3 +18,10 @@ pub enum EngineError {
     #[error("{scene} has {objects} objects, and colour by object can tell {OBJECT_MASK} apart; choose another colour")]
     TooManyObjects { scene: String, objects: usize },
 }
+
+impl EngineError {
+    /// There may be room once something else is gone.
+    pub fn is_out_of_memory(&self) -> bool {
+        matches!(self, Self::Gpu(GpuError::OutOfMemory { .. }))
+    }
+}

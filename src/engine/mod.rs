@@ -1,59 +1,47 @@
-//! Runs a plan: owns what is on the GPU and turns each frame's rows into submissions short enough
-//! that a window on the same queue stays fluid. Window and command line drive this same engine.
+//! Makes frames: owns what is on the GPU, and turns each request into submissions short enough that a window on the
+//! same queue stays fluid. Window and command line drive this same engine.
 //!
 //! ```text
-//! request(settings) ─► plan ─► steps ─► one Job a step ─► image, reports, timings
+//! request ─► plan (a graph of parts) ─► parts recorded in flow order ─► one Job ─► what is shown
 //! ```
 //!
-//! A frame that has begun building is finished before the next request is looked at, so that a
-//! playing animation always shows something.
+//! What fits the budget goes out in one submission. A frame that has begun is finished before the next request is
+//! looked at, so that a playing animation always shows something; what is shown is always of one request.
 
-mod built_octree;
-mod cones;
 mod error;
-mod inspect;
-mod light;
-mod light_views;
-mod node_reader;
-mod picture;
-mod read_irradiance;
-mod read_voxels;
-mod record;
-mod report;
+mod facts;
+mod frame;
+mod parts;
+mod pool;
+mod read;
+mod request;
 mod run;
-mod sample;
-mod scene_on_gpu;
-mod shadows;
-mod steps;
-mod surface_steps;
-mod surfaces;
-mod wanted;
+mod times;
 
 use std::sync::Arc;
-use std::time::Duration;
 
-use crate::data::octree::Slot;
 use crate::data::pages::SegmentOrder;
-use crate::gpu::{BufferUse, Gpu, GpuBuffer, GpuError, GpuTexture, KernelTiming};
-use crate::lights;
-use crate::plan::{self, FramePlan};
+use crate::gpu::{BufferUse, Gpu};
+use crate::plan::{self, Asked, FramePlan, Key, Keys};
 use crate::prepare::{ExactVoxels, Prepared};
-use crate::settings::Filter;
-use crate::stages::mesh::MeshScene;
+use crate::settings::{MotionSettings, Settings};
 use crate::stages::view::Picture;
 
-pub use built_octree::BuiltOctree;
 pub use error::EngineError;
-pub use inspect::{NodeAddress, NodeFacts, StoredNode};
-use light::LightOnGpu;
-use picture::ExactMasks;
-pub use read_voxels::WorldVoxels;
-pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
-use run::{Comparison, FrameTimings, Running};
-use scene_on_gpu::SceneOnGpu;
-use surface_steps::SurfaceTimings;
-use surfaces::SurfacesOnGpu;
-use wanted::{Done, Wanted};
+use frame::Frame;
+use parts::Parts;
+use read::Results;
+pub use read::{
+    AccuracyReport, FilterReport, LevelReport, NodeAddress, NodeFacts, OctreeReport, StoredNode, WorldVoxels,
+};
+use request::Request;
+use times::TimesBook;
+pub use times::{BuildTimes, PassTiming};
+
+/// What other methods made of the same moment is kept while all buffers together take no more than this.
+pub const KEPT_BYTES: u64 = 2 << 30;
+/// Exact voxels that are remembered, of as many poses.
+const KNOWN_EXACTS: usize = 4;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EngineState {
@@ -66,26 +54,39 @@ pub enum EngineState {
 pub struct Engine {
     gpu: Arc<Gpu>,
     segment_order: SegmentOrder,
+    kept_bytes: u64,
     prepared: Option<Arc<Prepared>>,
-    exact: Option<Arc<ExactVoxels>>,
-    wanted: Option<Wanted>,
+    /// The latest first.
+    exacts: Vec<Arc<ExactVoxels>>,
+    wanted: Option<Arc<Request>>,
     plan: FramePlan,
-    done: Done,
-    running: Option<Running>,
-    scene: Option<SceneOnGpu>,
-    shown: BuiltOctree,
-    other: BuiltOctree,
-    exact_bits: Option<(Arc<ExactVoxels>, GpuBuffer)>,
-    comparison_counts: Slot,
-    comparison: Comparison,
-    exact_masks: ExactMasks,
-    light: LightOnGpu,
-    surfaces: SurfacesOnGpu,
-    picture: Option<Picture>,
-    mesh: Option<MeshScene>,
-    mesh_matrices: Slot,
-    mesh_depth: Option<GpuTexture>,
-    timings: FrameTimings,
+    frame: Option<Frame>,
+    /// Frames that were begun.
+    begun: u64,
+    shown: Option<Shown>,
+    on_screen: Option<OnScreen>,
+    parts: Parts,
+    times: TimesBook,
+    /// What plans are told instead of the truth.
+    told: Option<fn(&mut Asked)>,
+    estimated_share: f64,
+}
+
+/// The last frame that was finished.
+struct Shown {
+    request: Arc<Request>,
+    keys: Vec<Keys>,
+    plan: FramePlan,
+    number: u64,
+    results: Results,
+}
+
+/// The last picture that was finished. Requests without one leave it where it is.
+struct OnScreen {
+    request: Arc<Request>,
+    /// Of the picture, and of the light that it shows.
+    keys: Vec<Key>,
+    picture: Picture,
 }
 
 impl Engine {
@@ -96,29 +97,27 @@ impl Engine {
     /// Results do not depend on the order in which segments are taken; tests show that.
     pub fn with_segment_order(gpu: Arc<Gpu>, segment_order: SegmentOrder) -> Self {
         Self {
-            exact_masks: ExactMasks::default(),
-            light: LightOnGpu::default(),
-            surfaces: SurfacesOnGpu::default(),
-            picture: None,
-            mesh: None,
-            mesh_matrices: Slot::default(),
-            mesh_depth: None,
             gpu,
             segment_order,
+            kept_bytes: KEPT_BYTES,
             prepared: None,
-            exact: None,
+            exacts: Vec::new(),
             wanted: None,
             plan: FramePlan::default(),
-            done: Done::default(),
-            running: None,
-            scene: None,
-            shown: BuiltOctree::default(),
-            other: BuiltOctree::default(),
-            exact_bits: None,
-            comparison_counts: Slot::default(),
-            comparison: Comparison::default(),
-            timings: FrameTimings::default(),
+            frame: None,
+            begun: 0,
+            shown: None,
+            on_screen: None,
+            parts: Parts::default(),
+            times: TimesBook::default(),
+            told: None,
+            estimated_share: 1.0,
         }
+    }
+
+    /// Keeps what other methods made only while all buffers together take no more than this; [`KEPT_BYTES`] at first.
+    pub fn keep_bytes(&mut self, bytes: u64) {
+        self.kept_bytes = bytes;
     }
 
     pub fn gpu(&self) -> &Arc<Gpu> {
@@ -127,134 +126,93 @@ impl Engine {
 
     /// Another scene, or other caches of it; everything on the GPU is dropped.
     pub fn set_prepared(&mut self, prepared: Option<Arc<Prepared>>) {
-        self.running = None;
-        self.wanted = None;
-        self.done = Done::default();
-        self.scene = None;
-        self.shown = BuiltOctree::default();
-        self.other = BuiltOctree::default();
-        self.exact = None;
-        self.exact_bits = None;
-        self.exact_masks = ExactMasks::default();
-        self.light = LightOnGpu::default();
-        self.surfaces = SurfacesOnGpu::default();
-        self.mesh = None;
-        self.comparison = Comparison::default();
-        self.timings = FrameTimings::default();
-        self.prepared = prepared;
+        let gpu = Arc::clone(&self.gpu);
+        let empty = Self::with_segment_order(gpu, self.segment_order);
+        *self = Self { prepared, kept_bytes: self.kept_bytes, begun: self.begun, ..empty };
     }
 
     pub fn prepared(&self) -> Option<&Arc<Prepared>> {
         self.prepared.as_ref()
     }
 
-    /// The exact voxels of the pose that is requested; `None` while they are not known.
-    pub fn set_exact(&mut self, exact: Option<Arc<ExactVoxels>>) {
-        self.exact = exact;
+    /// Exact voxels of some pose. Requests of that pose, and of no other, are compared with them.
+    pub fn offer_exact(&mut self, exact: Arc<ExactVoxels>) {
+        self.exacts.insert(0, exact);
+        self.exacts.truncate(KNOWN_EXACTS);
+    }
+
+    /// What is wanted now. Cheap: a frame that is on its way holds its own request; this one begins with the next
+    /// [`Self::advance`] after it.
+    pub fn request(&mut self, settings: &Settings, size_px: [u32; 2]) -> Result<(), EngineError> {
+        let prepared = self.prepared.as_ref().ok_or(EngineError::NoScene)?;
+        let request = Request::new(prepared, (settings, size_px), &self.exacts)?;
+        self.wanted = Some(Arc::new(request));
+        if self.frame.is_none() {
+            self.make_plan();
+        }
+        Ok(())
+    }
+
+    /// Tells plans something else than what is asked for: a key that forgets an input, by which tests of the engine
+    /// are tested.
+    pub fn mistell(&mut self, told: fn(&mut Asked)) {
+        self.told = Some(told);
+    }
+
+    /// Makes room for only this share of what is likely to be counted, so that frames outgrow it: for tests that this
+    /// changes no bit.
+    pub fn underestimate(&mut self, share: f64) {
+        self.estimated_share = share;
+    }
+
+    fn make_plan(&mut self) {
+        let Some(wanted) = self.wanted.clone() else { return };
+        self.plan = self.plan_of(&wanted);
+    }
+
+    fn plan_of(&self, request: &Request) -> FramePlan {
+        let mut methods = request.asked();
+        self.told.into_iter().for_each(|told| methods.iter_mut().for_each(told));
+        plan::plan(&methods, &self.parts.held())
+    }
+
+    /// Of the frame that is on its way, else of the one that is wanted.
+    pub fn plan(&self) -> &FramePlan {
+        &self.plan
     }
 
     /// Nothing of the scene is in the picture that was requested: all of it is hidden, or outside the grid.
     pub fn shows_nothing(&self) -> bool {
-        self.wanted.as_ref().is_some_and(Wanted::shows_nothing)
-    }
-
-    /// The octree that is built is of what was requested, which has voxels in the grid.
-    fn has_octree(&self) -> bool {
-        self.done.octree.is_some() && self.wanted.as_ref().is_some_and(|wanted| wanted.facts.voxels() > 0)
+        self.wanted.as_ref().is_some_and(|wanted| wanted.shows_nothing())
     }
 
     /// Objects that the requested pose cannot show, lights that are nowhere in it, and a shadow map that is not there, a
     /// sentence each.
     pub fn left_out(&self) -> Vec<String> {
-        let (Some(prepared), Some(wanted)) = (&self.prepared, &self.wanted) else { return Vec::new() };
-        let name = |&object: &usize| &prepared.objects[object].object.name;
-        let objects = wanted.frame.left_out.iter().map(name);
-        let objects =
-            objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite"));
-        let (scene, settings) = (&prepared.scene, &wanted.settings);
-        // A request with nodes that are not there was refused.
-        let shown = settings.visibility.shown_nodes(scene).unwrap_or_default();
-        let lost = lights::left_out(scene, &wanted.placed.pose, &settings.lighting, &shown);
-        objects.chain(lost).chain(wanted.missing_map()).collect()
+        self.wanted.as_ref().map_or(Vec::new(), |wanted| wanted.left_out())
     }
 
-    fn make_plan(&mut self) {
-        let Some(wanted) = &self.wanted else { return };
-        self.plan = plan::plan(&wanted.facts, &self.changes(wanted), &wanted.settings);
+    /// How many frames were finished or are on their way; grows with each that runs anything.
+    pub fn frames_begun(&self) -> u64 {
+        self.begun
     }
 
-    pub fn plan(&self) -> &FramePlan {
-        &self.plan
+    /// Number and plan of the last frame that was finished.
+    pub fn last_frame(&self) -> Option<(u64, &FramePlan)> {
+        self.shown.as_ref().map(|shown| (shown.number, &shown.plan))
     }
 
-    /// Submits one slice of about `budget` of GPU time if the last has finished; never blocks.
-    pub fn advance(&mut self, budget: Duration) -> Result<EngineState, EngineError> {
-        if self.running.is_none() {
-            self.make_plan();
-            if self.plan.is_idle() {
-                return Ok(EngineState::Idle);
-            }
-            self.running = self.wanted.clone().map(|wanted| {
-                let steps = steps::of_plan(&self.plan, wanted.settings.lighting.bounces);
-                Running::new(wanted, self.plan.clone(), steps)
-            });
-        }
-        let outcome = self.run_slice(budget);
-        if outcome.is_err() {
-            self.running = None;
-        }
-        outcome
+    /// The moment that the picture on screen shows.
+    pub fn moment_on_screen(&self) -> Option<&MotionSettings> {
+        self.on_screen.as_ref().map(|on_screen| &on_screen.request.settings().motion)
     }
 
-    /// Runs until everything asked for is there.
-    pub fn run_to_end(&mut self) -> Result<(), EngineError> {
-        while self.advance(Duration::from_millis(200))? != EngineState::Idle {
-            self.gpu.wait()?;
-        }
-        Ok(())
-    }
-
-    /// Forgets results so that the next frame makes them again, as [`bench`](crate) needs.
-    pub fn invalidate(&mut self) {
-        self.done = Done::default();
-    }
-
-    /// Forgets light, shadow maps and pointers alone.
-    pub fn invalidate_light(&mut self) {
-        self.invalidate_surfaces();
-        self.done.light = None;
-        self.done.shadows = None;
-        self.done.emission = false;
-        self.done.links.clear();
-    }
-
-    /// Forgets the surface image and all that is made from it.
-    pub fn invalidate_surfaces(&mut self) {
-        self.timings.surfaces = SurfaceTimings::default();
-        self.done.surfaces = None;
-        self.done.direct = None;
-        self.done.diffuse = None;
-        self.done.specular = None;
-    }
-
-    /// Kernel times of the results that are there: the last build, and the last picture of it.
-    pub fn timings(&self) -> Vec<KernelTiming> {
-        self.timings.all()
+    /// The settings that the picture on screen was made with.
+    pub fn settings_on_screen(&self) -> Option<&Settings> {
+        self.on_screen.as_ref().map(|on_screen| on_screen.request.settings())
     }
 
     pub fn memory(&self) -> Vec<BufferUse> {
         self.gpu.memory()
     }
-}
-
-fn other_filter(filter: Filter) -> Filter {
-    match filter {
-        Filter::Nearest => Filter::Split,
-        Filter::Split => Filter::Nearest,
-    }
-}
-
-/// A buffer that a step reads and none before it has made.
-fn missing(label: &str) -> GpuError {
-    GpuError::Missing { label: label.to_owned() }
 }

@@ -1,116 +1,127 @@
-//! Rules of the passes that light the octree. Nobody looks at light, or there is none: no pass, no buffer.
+//! Rules of the parts that light the octree. Nobody looks at light, or there is none: no part, no buffer.
 
+use super::keys::{Keys, Wanted};
 use super::surfaces::{ConesAsked, shows_direct};
-use super::voxels::octree_wanted;
-use super::{Changes, FramePlan, Pass, SceneFacts, Verdict, unless};
+use super::voxels::{from_octree, from_voxels, octree_skipped, unless};
+use super::{Asked, Held, Key, Part, Pass, WantedFor};
 use crate::settings::lighting::{Lighting, Shadows};
-use crate::settings::{ColorBy, Lookup, Settings, SliceValue, View};
+use crate::settings::{ColorBy, SliceValue, View};
 
-/// The rows from neighbour pointers to averaged light; whether light is computed again.
-pub(super) fn light(
-    plan: &mut FramePlan,
-    scene: &SceneFacts,
-    changed: &Changes,
-    settings: &Settings,
-    rebuilt: bool,
-) -> bool {
-    let store = store_skipped(scene, settings);
-    let lighting = &settings.lighting;
-    let relit = store.is_none() && (rebuilt || changed.lighting);
-    let again = |skip: Option<&'static str>| {
-        let because = if rebuilt { "voxels moved" } else { "lighting changed" };
-        unless(store.or(skip), relit, because, "lighting unchanged")
-    };
-    plan.push(Pass::LinkNodes, link(scene, changed, settings, rebuilt));
-    let opacity = only_opacity(scene, settings).then_some("only opacity is looked at");
-    let dark = opacity.or((!emits(scene, lighting)).then_some("nothing emits"));
-    let emission = unless(store.or(dark), rebuilt || changed.emission, "voxels moved", "voxels unchanged");
-    plan.push(Pass::GatherEmission, emission);
-    plan.push(Pass::DrawShadows, draw_shadows(scene, changed, settings, store));
-    plan.push(Pass::Illuminate, again(opacity.or((scene.lights == 0).then_some("no light in the scene"))));
-    plan.push(Pass::GatherSky, again(opacity.or((!has_sky(lighting)).then_some("the sky is black"))));
-    plan.push(Pass::InjectLight, again(None));
-    plan.push(Pass::AverageLight, again(None));
-    let no_bounce = opacity.or((lighting.bounces == 0).then_some("no bounces are asked for"));
-    plan.push(Pass::Bounces, again(no_bounce.or((!is_lit(scene, lighting)).then_some("no light to bounce"))));
-    let looked_at = match settings.look.view {
-        View::Voxels => settings.look.color == ColorBy::Irradiance,
-        View::Slice => settings.look.slice.value == SliceValue::Irradiance,
-        View::Mesh | View::Ghost | View::ShadowMap | View::Surfaces => false,
-    };
-    let skip = store.or((!looked_at).then_some("irradiance is not looked at"));
-    plan.push(
-        Pass::AverageIrradiance,
-        unless(skip, relit || changed.irradiance, "irradiance is looked at", "light unchanged"),
-    );
-    relit
-}
+const ONLY_OPACITY: &str = "only opacity is looked at";
 
 pub(super) fn has_sky(lighting: &Lighting) -> bool {
     lighting.sky_nits.iter().any(|channel| *channel > 0.0)
 }
 
-fn emits(scene: &SceneFacts, lighting: &Lighting) -> bool {
-    scene.emissive_voxels > 0 && lighting.emission > 0.0
+pub(super) fn emits(asked: &Asked) -> bool {
+    asked.scene.emissive_voxels > 0 && asked.settings.lighting.emission > 0.0
 }
 
-pub(super) fn is_lit(scene: &SceneFacts, lighting: &Lighting) -> bool {
-    scene.lights > 0 || has_sky(lighting) || emits(scene, lighting)
+pub(super) fn is_lit(asked: &Asked) -> bool {
+    asked.scene.lights > 0 || has_sky(&asked.settings.lighting) || emits(asked)
 }
 
 /// Why the octree keeps no light, if so. Slices and cones sample opacity from the same store.
-pub(super) fn store_skipped(scene: &SceneFacts, settings: &Settings) -> Option<&'static str> {
-    let look = &settings.look;
-    let is_asked_for = match look.view {
-        View::Slice => return octree_wanted(scene, settings),
-        View::Voxels => look.color.is_light(),
-        View::Surfaces => {
-            let asked = ConesAsked::new(scene, settings);
-            let idle = (!asked.any()).then_some("no cone is asked for");
-            return octree_wanted(scene, settings).or(idle);
-        }
-        View::Mesh | View::Ghost | View::ShadowMap => false,
+pub(super) fn store_skipped(asked: &Asked) -> Option<&'static str> {
+    let look = &asked.settings.look;
+    let unread = match look.view {
+        _ if asked.wanted_for == WantedFor::Comparison => Some("light is not looked at"),
+        View::Slice => None,
+        View::Surfaces => (!ConesAsked::new(asked).any()).then_some("no cone is asked for"),
+        View::Voxels if look.color.is_light() => (!is_lit(asked)).then_some("no light and no emission"),
+        View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => Some("light is not looked at"),
     };
-    octree_wanted(scene, settings).or((!is_asked_for).then_some("light is not looked at")).or((!is_lit(
-        scene,
-        &settings.lighting,
-    ))
-    .then_some("no light and no emission"))
+    octree_skipped(asked).or(unread)
 }
 
 /// The store is read for its opacity alone.
-pub fn only_opacity(scene: &SceneFacts, settings: &Settings) -> bool {
-    match settings.look.view {
-        View::Slice => settings.look.slice.value == SliceValue::Occupancy,
-        View::Surfaces => !ConesAsked::new(scene, settings).any_radiance(),
+pub fn only_opacity(asked: &Asked) -> bool {
+    match asked.settings.look.view {
+        View::Slice => asked.settings.look.slice.value == SliceValue::Occupancy,
+        View::Surfaces => !ConesAsked::new(asked).any_radiance(),
         View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => false,
     }
 }
 
-fn link(scene: &SceneFacts, changed: &Changes, settings: &Settings, rebuilt: bool) -> Verdict {
-    let look = &settings.look;
-    let hops = match look.view {
-        View::Slice => look.slice.lookup != Lookup::Ranks,
-        View::Surfaces => settings.cone_tracing.lookup != Lookup::Ranks && ConesAsked::new(scene, settings).any(),
-        View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => false,
-    };
-    let skip =
-        octree_wanted(scene, settings).or((!hops && !look.pointers).then_some("no pointer is followed or shown"));
-    unless(skip, rebuilt || changed.links, "pointers are followed or shown", "voxels unchanged")
+fn dark(asked: &Asked) -> Option<&'static str> {
+    only_opacity(asked).then_some(ONLY_OPACITY)
 }
 
-fn draw_shadows(scene: &SceneFacts, changed: &Changes, settings: &Settings, store: Option<&'static str>) -> Verdict {
-    let is_shown = settings.look.view == View::ShadowMap;
-    let dark = only_opacity(scene, settings).then_some("only opacity is looked at");
-    let unread = if shows_direct(settings) { None } else { store.or(dark) };
-    let unmapped = match settings.lighting.shadows {
-        _ if is_shown => None,
+pub(super) fn emission(asked: &Asked, keys: &Keys) -> Wanted {
+    unless(store_skipped(asked).or(dark(asked)).or((!emits(asked)).then_some("nothing emits")))?;
+    Ok(from_voxels(from_octree(Key::of(Part::Emission), "voxels moved", keys)?, keys)?.build())
+}
+
+pub(super) fn shadow_maps(asked: &Asked) -> Wanted {
+    let unread = if shows_direct(asked) { None } else { store_skipped(asked).or(dark(asked)) };
+    let unmapped = match asked.settings.lighting.shadows {
+        _ if asked.shows(View::ShadowMap) => None,
         Shadows::Map => unread,
         Shadows::March => unread.or(Some("shadows are marched")),
         Shadows::Off => unread.or(Some("shadows are off")),
     };
-    let skip = unmapped
-        .or((scene.lights == 0).then_some("no light in the scene"))
-        .or((scene.triangles == 0).then_some("no triangles"));
-    unless(skip, changed.shadow_maps, "a light or an object moved", "lights and objects unmoved")
+    let unlit = (asked.scene.lights == 0).then_some("no light in the scene");
+    unless(unmapped.or(unlit).or((asked.scene.triangles == 0).then_some("no triangles")))?;
+    let moved = "a light or an object moved";
+    let key = Key::of(Part::ShadowMaps).digest(moved, asked.contents.shadow_maps);
+    Ok(key.digest(moved, asked.contents.placed).build())
+}
+
+/// Where opacity is enough, the store of radiance serves too.
+pub(super) fn light(asked: &Asked, keys: &Keys, held: &Held) -> Wanted {
+    unless(store_skipped(asked))?;
+    let with_radiance = radiance(asked, keys)?;
+    if !only_opacity(asked) || held.holds(Part::Light, &with_radiance) {
+        return Ok(with_radiance);
+    }
+    let key = from_octree(Key::of(Part::Light), "voxels moved", keys)?.method("light is looked at", &false);
+    Ok(key.method("another opacity", &asked.settings.lighting.opacity).build())
+}
+
+fn radiance(asked: &Asked, keys: &Keys) -> Wanted {
+    let lighting = &asked.settings.lighting;
+    let changed = "lighting changed";
+    let key = from_octree(Key::of(Part::Light), "voxels moved", keys)?.method("light is looked at", &true);
+    let key = key.method("another opacity", &lighting.opacity).digest(changed, asked.contents.lights);
+    let key = key.method("other shadows", &lighting.shadows);
+    let key = match keys.get(Part::ShadowMaps).filter(|_| lighting.shadows == Shadows::Map) {
+        Some(maps) => key.input("other shadows", Part::ShadowMaps, maps),
+        None => key,
+    };
+    let key = match keys.get(Part::Emission) {
+        Some(emission) => key.input(changed, Part::Emission, emission).method(changed, &lighting.emission),
+        None => key,
+    };
+    let gathers = has_sky(lighting) || lighting.bounces > 0;
+    let cones = gathers.then_some((lighting.sky_nits, lighting.bounces, lighting.cones, lighting.cone_degrees));
+    Ok(key.method(changed, &cones).build())
+}
+
+pub(super) fn irradiance(asked: &Asked, keys: &Keys) -> Wanted {
+    let look = &asked.settings.look;
+    let is_looked_at = match look.view {
+        View::Voxels => look.color == ColorBy::Irradiance,
+        View::Slice => look.slice.value == SliceValue::Irradiance,
+        View::Mesh | View::Ghost | View::ShadowMap | View::Surfaces => false,
+    };
+    let light = keys.wanted(Part::Light)?;
+    unless((!is_looked_at).then_some("irradiance is not looked at"))?;
+    let changed = "irradiance is looked at";
+    Ok(from_octree(Key::of(Part::Irradiance), changed, keys)?.input(changed, Part::Light, light).build())
+}
+
+/// Why a pass of the light that is made is left out, if so.
+pub(super) fn left_out(pass: Pass, asked: &Asked) -> Option<&'static str> {
+    let lighting = &asked.settings.lighting;
+    let because = |reason| dark(asked).or(reason);
+    match pass {
+        Pass::Illuminate => because((asked.scene.lights == 0).then_some("no light in the scene")),
+        Pass::GatherSky => because((!has_sky(lighting)).then_some("the sky is black")),
+        Pass::Bounces => because(
+            (lighting.bounces == 0)
+                .then_some("no bounces are asked for")
+                .or((!is_lit(asked)).then_some("no light to bounce")),
+        ),
+        _ => None,
+    }
 }

@@ -1,145 +1,124 @@
-//! The list of passes of a frame, and why: one pure function from facts to rows, so that the panel,
-//! `octolume plan` and the engine can never disagree. Static scenes, and what nobody looks at, cost
-//! nothing.
+//! The plan of a frame: a graph of parts, each with the key it would be made from. A part runs where nobody holds
+//! that key, is reused where somebody does, and is skipped where nothing calls for it; nothing is decided twice.
+//! The panel, `octolume plan` and the engine read the same rows.
+//!
+//! ```text
+//! Asked (a method of a request) ─► Keys ─┐
+//! Held (what is on the GPU) ─────────────┴─► FramePlan: what runs in flow order, and a row a pass
+//! ```
+//!
+//! Static scenes, and what nobody looks at, cost nothing.
 
+mod asked;
+mod held;
+mod key;
+mod keys;
 mod light;
+mod part;
 mod pass;
+mod rows;
 mod surfaces;
+mod views;
 mod voxels;
+
+use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use crate::settings::Settings;
+use crate::digest::Digest;
 
+pub use asked::{Asked, Contents, SceneFacts, WantedFor};
+pub use held::Held;
+pub use key::{Key, KeyBuilder};
+pub use keys::Keys;
 pub use light::only_opacity;
+pub use part::Part;
 pub use pass::Pass;
+pub use rows::{Row, State};
 pub use surfaces::ConesAsked;
+pub use views::{light_shown, shows_light};
+pub use voxels::layout_of;
 
-/// What a scene holds, as far as a frame's plan depends on it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct SceneFacts {
-    /// Voxels of static and rigid objects inside the grid.
-    pub rigid_voxels: u64,
-    /// Voxels of skinned objects inside the grid.
-    pub skinned_voxels: u64,
-    pub triangles: u64,
-    /// Lights that are on and not black.
-    pub lights: u32,
-    /// Voxels inside the grid of objects that emit.
-    pub emissive_voxels: u64,
-    /// Some surface may be smooth enough for a specular cone.
-    pub glossy: bool,
-    /// Size of the picture.
-    pub picture_px: [u32; 2],
+/// A part that a frame makes.
+#[derive(Clone, Debug)]
+pub struct PlannedPart {
+    pub part: Part,
+    pub key: Key,
+    /// The first method that calls for it, by number in the request.
+    pub method: usize,
 }
 
-impl SceneFacts {
-    pub fn voxels(&self) -> u64 {
-        self.rigid_voxels + self.skinned_voxels
-    }
-}
-
-/// What differs from the last frame that ran. True also where there was none.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Changes {
-    /// Scene, grid, span or voxelization mode: other caches.
-    pub caches: bool,
-    /// The set of objects inside the grid.
-    pub residents: bool,
-    pub rigid_poses: bool,
-    pub skinned_poses: bool,
-    /// Filter or dense level: another octree from the same world voxels.
-    pub octree: bool,
-    /// The octree of the other filter is not of these voxels.
-    pub other_octree: bool,
-    /// The exact posed voxels differ from those last compared.
-    pub exact: bool,
-    /// The exact posed voxels differ from those whose masks are made.
-    pub exact_masks: bool,
-    /// There are exact voxels of this pose to compare with.
-    pub exact_known: bool,
-    /// Camera, picture size or anything of the look; in the mesh view, the pose too.
-    pub view: bool,
-    /// The octree's leaves have no object numbers yet.
-    pub object_numbers: bool,
-    /// The octree has no neighbour pointers of the kind that is wanted.
-    pub links: bool,
-    /// The octree's leaves do not know yet what they emit.
-    pub emission: bool,
-    /// A light that has a shadow map moved, or what casts shadows did.
-    pub shadow_maps: bool,
-    /// Lights, sky or how light is computed.
-    pub lighting: bool,
-    /// The irradiance of inner nodes is not that of the leaves.
-    pub irradiance: bool,
-    /// The surface image is not of this camera, pose and picture size.
-    pub surfaces: bool,
-    /// Its direct light is not that of these lights.
-    pub direct: bool,
-    /// Diffuse cones, or specular ones, were not traced as is wanted.
-    pub diffuse: bool,
-    pub specular: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum State {
-    Run,
-    /// The last result still holds.
-    Reuse,
-    /// Nothing in the scene, or nobody looking, calls for it.
-    Skip,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Row {
-    pub pass: Pass,
-    pub state: State,
-    pub reason: &'static str,
-}
-
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 #[serde(transparent)]
 pub struct FramePlan {
     pub rows: Vec<Row>,
+    #[serde(skip)]
+    to_run: Vec<PlannedPart>,
+    #[serde(skip)]
+    keys: Vec<Keys>,
 }
 
 impl FramePlan {
+    /// Whether a pass runs for any method.
     pub fn runs(&self, pass: Pass) -> bool {
         self.rows.iter().any(|row| row.pass == pass && row.state == State::Run)
     }
 
-    /// The voxels are drawn in the light that the octree holds.
-    pub fn shows_light(&self) -> bool {
-        self.rows.iter().any(|row| row.pass == Pass::MarchLight && row.state != State::Skip)
-    }
-
-    /// No row runs: no dispatch, no repaint.
+    /// No part runs: no dispatch, no repaint.
     pub fn is_idle(&self) -> bool {
-        self.rows.iter().all(|row| row.state != State::Run)
+        self.to_run.is_empty()
     }
 
-    fn push(&mut self, pass: Pass, (state, reason): (State, &'static str)) {
-        self.rows.push(Row { pass, state, reason });
+    /// What a frame makes, in flow order, each part once however many methods share it.
+    pub fn to_run(&self) -> &[PlannedPart] {
+        &self.to_run
+    }
+
+    /// What every part of a method is made from; by the method's number in the request.
+    pub fn keys(&self) -> &[Keys] {
+        &self.keys
     }
 }
 
-type Verdict = (State, &'static str);
-
-/// Decides a frame. Pure: the same arguments give the same rows.
-pub fn plan(scene: &SceneFacts, changed: &Changes, settings: &Settings) -> FramePlan {
-    let mut plan = FramePlan::default();
-    let rebuilt = voxels::build(&mut plan, scene, changed, settings);
-    let relit = light::light(&mut plan, scene, changed, settings, rebuilt);
-    surfaces::surfaces(&mut plan, scene, changed, settings, (rebuilt, relit));
-    voxels::views(&mut plan, scene, changed, settings, (rebuilt, relit));
-    plan
+/// Decides a frame. Pure: the same arguments give the same plan. The first method is the one that is shown.
+pub fn plan(methods: &[Asked], held: &Held) -> FramePlan {
+    let keys: Vec<Keys> = methods.iter().map(|asked| Keys::new(asked, held)).collect();
+    let to_run = to_run(methods, &keys, held);
+    let rows = rows::rows(methods, &keys, (&to_run, held));
+    FramePlan { rows, to_run, keys }
 }
 
-fn unless(skip: Option<&'static str>, run: bool, because: &'static str, otherwise: &'static str) -> Verdict {
-    match skip {
-        Some(reason) => (State::Skip, reason),
-        None if run => (State::Run, because),
-        None => (State::Reuse, otherwise),
+/// Consumers before what they are made from: a part that is not there is made only for somebody who runs, or who
+/// looks at it.
+fn to_run(methods: &[Asked], keys: &[Keys], held: &Held) -> Vec<PlannedPart> {
+    let mut needed: BTreeSet<(Part, Digest)> = BTreeSet::new();
+    let mut to_run: Vec<PlannedPart> = Vec::new();
+    for part in Part::ALL.into_iter().rev() {
+        let mut made: Vec<PlannedPart> = Vec::new();
+        for (method, (asked, keys)) in methods.iter().zip(keys).enumerate() {
+            let Some(key) = keys.get(part) else { continue };
+            let is_called_for = is_looked_at(part, asked) || needed.contains(&(part, key.digest()));
+            if is_called_for && !held.holds(part, key) && !made.iter().any(|planned| planned.key == *key) {
+                needed.extend(key.inputs().map(|(input, key)| (input, key.digest())));
+                made.push(PlannedPart { part, key: key.clone(), method });
+            }
+        }
+        to_run.extend(made.into_iter().rev());
+    }
+    to_run.reverse();
+    to_run
+}
+
+/// Whether a part that is made needs this pass of it.
+pub fn calls_for(pass: Pass, asked: &Asked) -> bool {
+    rows::left_out(pass, asked).is_none()
+}
+
+/// Shown or reported itself, not only through what is made from it.
+fn is_looked_at(part: Part, asked: &Asked) -> bool {
+    match part {
+        Part::Picture | Part::Comparison | Part::Payload => true,
+        Part::BlockLinks | Part::NodeLinks => voxels::links_are_shown(part, asked),
+        _ => false,
     }
 }

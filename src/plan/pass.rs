@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::Part;
+
 /// A pass, in the order of the frame. One row of the plan; one or more kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -53,17 +55,17 @@ pub enum Pass {
     /// What is shown of it, as linear light.
     ComposeSurfaces,
     MeasureExposure,
+    /// The exact voxels of the pose.
+    UploadExact,
+    /// The masks above the exact leaves, by which rays skip empty space.
+    ReduceExact,
     ShowSurfaces,
     MarchVoxels,
     MarchLight,
     SliceOctree,
     ShowShadowMap,
     DrawMesh,
-    /// The masks above the exact leaves, by which rays skip empty space.
-    ReduceExact,
     MarchGhost,
-    /// The octree of the filter that is not shown, for the accuracy panel.
-    BuildOther,
     CompareExact,
 }
 
@@ -104,27 +106,59 @@ impl Pass {
         Self::UpsampleSpecular,
         Self::ComposeSurfaces,
         Self::MeasureExposure,
+        Self::UploadExact,
+        Self::ReduceExact,
         Self::ShowSurfaces,
         Self::MarchVoxels,
         Self::MarchLight,
         Self::SliceOctree,
         Self::ShowShadowMap,
         Self::DrawMesh,
-        Self::ReduceExact,
         Self::MarchGhost,
-        Self::BuildOther,
         Self::CompareExact,
     ];
+
+    /// The parts that it makes, or helps to make.
+    pub fn parts(self) -> &'static [Part] {
+        match self {
+            Self::UploadCaches => &[Part::Caches],
+            Self::ObjectIo => &[Part::Pages],
+            Self::TransformRigid => &[Part::RigidVoxels],
+            Self::TransformSkinned => &[Part::SkinnedVoxels],
+            Self::MarkLeaves | Self::ReduceMasks | Self::ScanBlocks => &[Part::Masks],
+            Self::EmitNodes => &[Part::Topology],
+            Self::SortVoxels | Self::GatherNearest | Self::GatherSplit | Self::AverageNodes => &[Part::Payload],
+            Self::NumberObjects => &[Part::ObjectNumbers],
+            Self::LinkNodes => &[Part::BlockLinks, Part::NodeLinks],
+            Self::GatherEmission => &[Part::Emission],
+            Self::DrawShadows => &[Part::ShadowMaps],
+            Self::Illuminate | Self::GatherSky | Self::InjectLight | Self::AverageLight => &[Part::Light],
+            Self::Bounces => &[Part::Light],
+            Self::AverageIrradiance => &[Part::Irradiance],
+            Self::DrawSurfaces => &[Part::SurfaceImage],
+            Self::EmitSurfaces | Self::LightSurfaces | Self::LightByMarching => &[Part::DirectLight],
+            Self::TraceDiffuse | Self::BlurDiffuse | Self::UpsampleDiffuse => &[Part::DiffuseLight],
+            Self::ListGlossyTiles => &[Part::GlossyTiles],
+            Self::TraceSpecular | Self::UpsampleSpecular => &[Part::SpecularLight],
+            Self::ComposeSurfaces => &[Part::ComposedLight],
+            Self::MeasureExposure => &[Part::Exposure],
+            Self::UploadExact => &[Part::ExactBits],
+            Self::ReduceExact => &[Part::ExactMasks],
+            Self::ShowSurfaces | Self::MarchVoxels | Self::MarchLight | Self::SliceOctree => &[Part::Picture],
+            Self::ShowShadowMap | Self::DrawMesh | Self::MarchGhost => &[Part::Picture],
+            Self::CompareExact => &[Part::Comparison],
+        }
+    }
 
     /// The kernels a run of it dispatches; none for work of the CPU.
     pub fn kernels(self) -> &'static [&'static str] {
         match self {
-            Self::UploadCaches | Self::ObjectIo => &[],
+            Self::UploadCaches | Self::ObjectIo | Self::UploadExact => &[],
             Self::TransformRigid => &["transform/rigid"],
             Self::TransformSkinned => &["transform/skinned"],
             Self::MarkLeaves => &["build/mark"],
             Self::ReduceMasks | Self::ReduceExact => &["build/reduce"],
-            Self::ScanBlocks => &["build/scan_sum", "build/scan_spread"],
+            Self::ScanBlocks => &["build/scan_sum", "build/scan_spread", "build/size"],
             Self::EmitNodes => &["build/emit"],
             Self::SortVoxels => &["fill/count", "build/scan_sum", "build/scan_spread", "fill/place"],
             Self::GatherNearest | Self::GatherSplit => &["fill/gather", "fill/gather_heavy"],
@@ -139,18 +173,6 @@ impl Pass {
             Self::AverageLight => &["light/average_light"],
             Self::Bounces => &["light/gather", "light/inject", "light/average_light"],
             Self::AverageIrradiance => &["light/inject", "light/average_light"],
-            Self::BuildOther => &[
-                "build/mark",
-                "build/reduce",
-                "build/scan_sum",
-                "build/scan_spread",
-                "build/emit",
-                "fill/count",
-                "fill/place",
-                "fill/gather",
-                "fill/gather_heavy",
-                "averaging/average",
-            ],
             Self::CompareExact => &["compare/compare_sets"],
             Self::DrawSurfaces => &["surface/draw"],
             Self::EmitSurfaces => &["surface/emission"],
@@ -162,7 +184,7 @@ impl Pass {
             Self::ListGlossyTiles => &["cones/glossy_tiles", "build/scan_sum", "build/scan_spread", "cones/list_tiles"],
             Self::TraceSpecular => &["cones/specular"],
             Self::ComposeSurfaces => &["surface/compose"],
-            Self::MeasureExposure => &["surface/sum_luminance"],
+            Self::MeasureExposure => &["surface/sum_luminance", "surface/mean_luminance"],
             Self::ShowSurfaces => &["view/show_surfaces"],
             Self::MarchVoxels => &["view/march"],
             Self::MarchLight => &["view/march_light"],

@@ -1,10 +1,11 @@
-//! Rules of the passes behind the view of lit surfaces: what is not looked at, or has nothing to bring, is
-//! not traced.
+//! Rules of the parts behind the view of lit surfaces: what is not looked at, or has nothing to bring, is not traced.
 
+use super::keys::{Keys, Wanted};
 use super::light::{has_sky, is_lit};
-use super::{Changes, FramePlan, Pass, SceneFacts, State, Verdict, unless};
+use super::voxels::{followed, from_octree, unless};
+use super::{Asked, Key, KeyBuilder, Part, Pass};
 use crate::settings::lighting::Shadows;
-use crate::settings::{Settings, SurfaceView, View};
+use crate::settings::{ConeTracing, SurfaceView, View};
 
 /// What cones are asked for; otherwise why they are not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,16 +18,16 @@ pub struct ConesAsked {
 }
 
 impl ConesAsked {
-    pub fn new(scene: &SceneFacts, settings: &Settings) -> Self {
-        let cones = &settings.cone_tracing;
-        let surface = settings.look.surface;
+    pub fn new(asked: &Asked) -> Self {
+        let cones = &asked.settings.cone_tracing;
+        let surface = asked.settings.look.surface;
         let ask = |reasons: &[(bool, &'static str)]| match reasons.iter().find(|(applies, _)| *applies) {
             Some((_, reason)) => Err(*reason),
             None => Ok(()),
         };
-        let elsewhere = (settings.look.view != View::Surfaces, "another view is shown");
+        let elsewhere = (!asked.shows(View::Surfaces), "another view is shown");
         let (with_diffuse, with_specular) = looked_at(surface);
-        let dark = (!is_lit(scene, &settings.lighting), "no light and no emission");
+        let dark = (!is_lit(asked), "no light and no emission");
         // With the light of other surfaces there is no need to guess what is occluded.
         let is_guessed = with_diffuse && cones.ambient_occlusion && !cones.diffuse;
         let is_shown = surface == SurfaceView::Ao;
@@ -40,13 +41,13 @@ impl ConesAsked {
             occlusion: ask(&[
                 elsewhere,
                 (!is_guessed && !is_shown, "occlusion is not looked at"),
-                (!is_shown && !has_sky(&settings.lighting), "no sky to occlude"),
+                (!is_shown && !has_sky(&asked.settings.lighting), "no sky to occlude"),
             ]),
             specular: ask(&[
                 elsewhere,
                 (!with_specular, "not looked at"),
                 (!cones.specular, "the specular cone is off"),
-                (!scene.glossy, "no glossy surface in the scene"),
+                (!asked.scene.glossy, "no glossy surface in the scene"),
                 dark,
             ]),
         }
@@ -78,89 +79,129 @@ fn looked_at(surface: SurfaceView) -> (bool, bool) {
 }
 
 /// Whether the view shows what lights send without a detour.
-pub(super) fn shows_direct(settings: &Settings) -> bool {
-    let surface = settings.look.surface;
-    settings.look.view == View::Surfaces && matches!(surface, SurfaceView::Final | SurfaceView::Direct)
+pub(super) fn shows_direct(asked: &Asked) -> bool {
+    asked.shows(View::Surfaces) && matches!(asked.settings.look.surface, SurfaceView::Final | SurfaceView::Direct)
 }
 
 /// Light that surfaces get straight from lights asks the octree what is in between.
-pub(super) fn marches_shadows(scene: &SceneFacts, settings: &Settings) -> bool {
-    scene.lights > 0 && settings.lighting.shadows == Shadows::March && shows_direct(settings)
+pub(super) fn marches_shadows(asked: &Asked) -> bool {
+    asked.scene.lights > 0 && asked.settings.lighting.shadows == Shadows::March && shows_direct(asked)
 }
 
-/// The rows from the surface image to its picture. `relit`: the octree's light is computed again; `rebuilt`:
-/// the octree itself.
-pub(super) fn surfaces(
-    plan: &mut FramePlan,
-    scene: &SceneFacts,
-    changed: &Changes,
-    settings: &Settings,
-    (rebuilt, relit): (bool, bool),
-) {
-    let absent = (settings.look.view != View::Surfaces)
+fn absent(asked: &Asked) -> Option<&'static str> {
+    (!asked.shows(View::Surfaces))
         .then_some("another view is shown")
-        .or((scene.triangles == 0).then_some("no triangles"));
-    let redrawn = absent.is_none() && changed.surfaces;
-    plan.push(Pass::DrawSurfaces, unless(absent, redrawn, "camera or objects moved", "camera and objects unmoved"));
-    direct(plan, scene, changed, settings, (absent, redrawn, rebuilt));
-    cones(plan, scene, changed, settings, (absent, redrawn, relit));
-    let fresh = changed.view || plan.rows.iter().any(|row| OF_PICTURE.contains(&row.pass) && row.state == State::Run);
-    plan.push(Pass::ComposeSurfaces, unless(absent, fresh, "a part of the picture is new", "nothing changed"));
-    let unexposed = absent
-        .or((!settings.look.surface.is_light()).then_some("no light is shown"))
-        .or(settings.look.exposure_stops.map(|_| "the exposure is set"));
-    plan.push(Pass::MeasureExposure, unless(unexposed, fresh, "a part of the picture is new", "nothing changed"));
-    plan.push(Pass::ShowSurfaces, unless(absent, fresh, "a part of the picture is new", "nothing changed"));
+        .or((asked.scene.triangles == 0).then_some("no triangles"))
 }
 
-/// What runs with anything that the picture is composed of.
-const OF_PICTURE: [Pass; 4] = [Pass::DrawSurfaces, Pass::EmitSurfaces, Pass::TraceDiffuse, Pass::TraceSpecular];
-
-fn direct(
-    plan: &mut FramePlan,
-    scene: &SceneFacts,
-    changed: &Changes,
-    settings: &Settings,
-    (absent, redrawn, rebuilt): (Option<&'static str>, bool, bool),
-) {
-    let unseen = absent.or((!shows_direct(settings)).then_some("not looked at"));
-    let marches = settings.lighting.shadows == Shadows::March;
-    let lit = redrawn || changed.direct || plan.runs(Pass::DrawShadows) || rebuilt && marches;
-    let because = if redrawn { "surfaces changed" } else { "lights or shadows changed" };
-    let verdict = |skip: Option<&'static str>| unless(unseen.or(skip), lit, because, "lights and surfaces unchanged");
-    let unlit = (scene.lights == 0).then_some("no light in the scene");
-    plan.push(Pass::EmitSurfaces, verdict(None));
-    plan.push(Pass::LightSurfaces, verdict(unlit.or(marches.then_some("shadows are marched"))));
-    plan.push(Pass::LightByMarching, verdict(unlit.or((!marches).then_some("shadows are not marched"))));
+pub(super) fn image(asked: &Asked) -> Wanted {
+    unless(absent(asked))?;
+    let key = Key::of(Part::SurfaceImage).digest("camera or objects moved", asked.contents.camera);
+    let key = key.digest("camera or objects moved", asked.contents.placed);
+    let key = key.shot("another size", &asked.scene.picture_px);
+    // Nothing depends on it where nothing emits.
+    let emission = (asked.scene.emissive_voxels > 0).then_some(asked.settings.lighting.emission);
+    Ok(key.method("lighting changed", &emission).build())
 }
 
-fn cones(
-    plan: &mut FramePlan,
-    scene: &SceneFacts,
-    changed: &Changes,
-    settings: &Settings,
-    (absent, redrawn, relit): (Option<&'static str>, bool, bool),
-) {
-    let asked = ConesAsked::new(scene, settings);
-    let outside = absent.or((scene.voxels() == 0).then_some("no voxels in the grid"));
-    let verdict = |skip: Option<&'static str>, changed: bool| -> Verdict {
-        unless(outside.or(skip), redrawn || relit || changed, because(redrawn), "light and surfaces unchanged")
-    };
-    let diffuse = verdict(asked.diffuse().err(), changed.diffuse);
-    plan.push(Pass::TraceDiffuse, diffuse);
-    let cones = &settings.cone_tracing;
-    let size_px = scene.picture_px;
-    let alone = (cones.pattern_px == 1).then_some("every pixel has all its cones");
-    let whole = (cones.diffuse_size_px(size_px) == size_px).then_some("every pixel sends out cones");
-    plan.push(Pass::BlurDiffuse, verdict(asked.diffuse().err().or(alone), changed.diffuse));
-    plan.push(Pass::UpsampleDiffuse, verdict(asked.diffuse().err().or(whole), changed.diffuse));
-    let specular = verdict(asked.specular.err(), changed.specular);
-    plan.push(Pass::ListGlossyTiles, specular);
-    plan.push(Pass::TraceSpecular, specular);
-    let whole = (cones.specular_size_px(size_px) == size_px).then_some("every pixel sends out its cone");
-    plan.push(Pass::UpsampleSpecular, verdict(asked.specular.err().or(whole), changed.specular));
+fn from_image(part: Part, keys: &Keys) -> Result<KeyBuilder, &'static str> {
+    Ok(Key::of(part).input("surfaces changed", Part::SurfaceImage, keys.wanted(Part::SurfaceImage)?))
 }
 
-fn because(redrawn: bool) -> &'static str {
-    if redrawn { "surfaces changed" } else { "light or cones changed" }
+pub(super) fn direct(asked: &Asked, keys: &Keys) -> Wanted {
+    let key = from_image(Part::DirectLight, keys)?;
+    unless((!shows_direct(asked)).then_some("not looked at"))?;
+    let (lighting, changed) = (&asked.settings.lighting, "lights or shadows changed");
+    let key = key.digest(changed, asked.contents.lights).method(changed, &lighting.shadows);
+    let is_lit = asked.scene.lights > 0;
+    Ok(match lighting.shadows {
+        Shadows::Map => match keys.get(Part::ShadowMaps) {
+            Some(maps) => key.input(changed, Part::ShadowMaps, maps),
+            None => key,
+        },
+        Shadows::March if is_lit => from_octree(key, changed, keys)?,
+        Shadows::March | Shadows::Off => key,
+    }
+    .build())
+}
+
+/// What cones read: the surfaces, and the lit octree by the look-up that is set.
+fn from_cones(part: Part, asked: &Asked, keys: &Keys) -> Result<KeyBuilder, &'static str> {
+    let key = from_image(part, keys)?;
+    unless((asked.scene.voxels() == 0).then_some("no voxels in the grid"))?;
+    Ok(key.method("the sky changed", &asked.settings.lighting.sky_nits))
+}
+
+fn through_octree(key: KeyBuilder, keys: &Keys) -> Result<KeyBuilder, &'static str> {
+    let changed = "light or cones changed";
+    Ok(from_octree(key, changed, keys)?.input(changed, Part::Light, keys.wanted(Part::Light)?))
+}
+
+pub(super) fn diffuse(asked: &Asked, keys: &Keys) -> Wanted {
+    let key = from_cones(Part::DiffuseLight, asked, keys)?;
+    let cones = ConesAsked::new(asked);
+    cones.diffuse()?;
+    let changed = "light or cones changed";
+    // What specular cones are set to does not matter.
+    let ConeTracing { specular, glossy_roughness, .. } = ConeTracing::default();
+    let set = ConeTracing { specular, glossy_roughness, ..asked.settings.cone_tracing };
+    let key = key.method(changed, &set).method(changed, &(cones.radiance.is_ok(), cones.occlusion.is_ok()));
+    let links = followed(set.lookup).and_then(|part| Some((part, keys.get(part)?)));
+    let key = links.into_iter().fold(key, |key, (part, links)| key.input(changed, part, links));
+    Ok(through_octree(key, keys)?.build())
+}
+
+pub(super) fn glossy_tiles(asked: &Asked, keys: &Keys) -> Wanted {
+    let key = from_image(Part::GlossyTiles, keys)?;
+    unless((asked.scene.voxels() == 0).then_some("no voxels in the grid"))?;
+    ConesAsked::new(asked).specular?;
+    let cones = &asked.settings.cone_tracing;
+    Ok(key.method("light or cones changed", &(cones.indirect_px, cones.glossy_roughness)).build())
+}
+
+pub(super) fn specular(asked: &Asked, keys: &Keys) -> Wanted {
+    let key = from_cones(Part::SpecularLight, asked, keys)?;
+    let tiles = keys.wanted(Part::GlossyTiles)?;
+    let changed = "light or cones changed";
+    let set = &asked.settings.cone_tracing;
+    let key = key.method(changed, &(set.start_voxels, set.step_diameters, set.sampling));
+    Ok(through_octree(key, keys)?.input(changed, Part::GlossyTiles, tiles).build())
+}
+
+pub(super) fn composed(asked: &Asked, keys: &Keys) -> Wanted {
+    let settings = &asked.settings;
+    let changed = "a part of the picture is new";
+    let terms = [Part::DirectLight, Part::DiffuseLight, Part::SpecularLight];
+    let terms = terms.into_iter().filter_map(|part| Some((part, keys.get(part)?)));
+    let key = terms.fold(from_image(Part::ComposedLight, keys)?, |key, (part, term)| key.input(changed, part, term));
+    let key = key.method("another part of the light is shown", &settings.look.surface);
+    Ok(key.method(changed, &(settings.lighting.sky_nits, settings.cone_tracing.glossy_roughness)).build())
+}
+
+pub(super) fn exposure(asked: &Asked, keys: &Keys) -> Wanted {
+    let composed = keys.wanted(Part::ComposedLight)?;
+    let look = &asked.settings.look;
+    unless((!look.surface.is_light()).then_some("no light is shown"))?;
+    unless(look.exposure_stops.map(|_| "the exposure is set"))?;
+    Ok(Key::of(Part::Exposure).input("a part of the picture is new", Part::ComposedLight, composed).build())
+}
+
+/// Why a pass of a part that is made is left out, if so.
+pub(super) fn left_out(pass: Pass, asked: &Asked) -> Option<&'static str> {
+    let cones = &asked.settings.cone_tracing;
+    let picture_px = asked.scene.picture_px;
+    let unlit = (asked.scene.lights == 0).then_some("no light in the scene");
+    let marches = asked.settings.lighting.shadows == Shadows::March;
+    match pass {
+        Pass::LightSurfaces => unlit.or(marches.then_some("shadows are marched")),
+        Pass::LightByMarching => unlit.or((!marches).then_some("shadows are not marched")),
+        Pass::BlurDiffuse => (cones.pattern_px == 1).then_some("every pixel has all its cones"),
+        Pass::UpsampleDiffuse => {
+            (cones.diffuse_size_px(picture_px) == picture_px).then_some("every pixel sends out cones")
+        }
+        Pass::UpsampleSpecular => {
+            (cones.specular_size_px(picture_px) == picture_px).then_some("every pixel sends out its cone")
+        }
+        _ => None,
+    }
 }

@@ -1,153 +1,138 @@
-//! Rules of the passes that move voxels, build the octree and show it.
+//! Rules of the parts that move voxels and build the octree.
 
-use super::light::store_skipped;
+use super::keys::{Keys, Wanted};
 use super::surfaces::{ConesAsked, marches_shadows};
-use super::{Changes, FramePlan, Pass, SceneFacts, Verdict, unless};
-use crate::settings::{ColorBy, Filter, Settings, View};
-
-/// The rows up to the averaged octree and its numbers; whether it is built again.
-pub(super) fn build(plan: &mut FramePlan, scene: &SceneFacts, changed: &Changes, settings: &Settings) -> bool {
-    let wanted = octree_wanted(scene, settings);
-    let moved = changed.caches || changed.residents || changed.rigid_poses || changed.skinned_poses;
-    let rebuilt = wanted.is_none() && (moved || changed.octree);
-    plan.push(Pass::UploadCaches, unless(wanted, changed.caches, "new caches", "caches unchanged"));
-    let entered = changed.caches || changed.residents;
-    plan.push(Pass::ObjectIo, unless(wanted, entered, "objects entered or left the grid", "same objects in the grid"));
-    plan.push(Pass::TransformRigid, transform_rigid(scene, changed, wanted));
-    plan.push(Pass::TransformSkinned, transform_skinned(scene, changed, wanted));
-    for pass in [Pass::MarkLeaves, Pass::ReduceMasks, Pass::ScanBlocks, Pass::EmitNodes, Pass::SortVoxels] {
-        plan.push(pass, build_pass(wanted, moved, rebuilt));
-    }
-    plan.push(Pass::GatherNearest, gather(Filter::Nearest, settings, wanted, moved, rebuilt));
-    plan.push(Pass::GatherSplit, gather(Filter::Split, settings, wanted, moved, rebuilt));
-    plan.push(Pass::AverageNodes, build_pass(wanted, moved, rebuilt));
-    plan.push(Pass::NumberObjects, number_objects(changed, settings, wanted, rebuilt));
-    rebuilt
-}
-
-/// The rows behind the light.
-pub(super) fn views(
-    plan: &mut FramePlan,
-    scene: &SceneFacts,
-    changed: &Changes,
-    settings: &Settings,
-    (rebuilt, relit): (bool, bool),
-) {
-    let wanted = octree_wanted(scene, settings);
-    let redraw = changed.view || rebuilt;
-    let shows_light = settings.look.view == View::Voxels && settings.look.color.is_light();
-    let unlit = store_skipped(scene, settings);
-    let as_light = (shows_light && unlit.is_none()).then_some("light is shown");
-    plan.push(Pass::MarchVoxels, view(View::Voxels, settings, wanted.or(as_light), redraw));
-    let no_light = wanted.or((!shows_light).then_some("colour is not by light")).or(unlit);
-    plan.push(Pass::MarchLight, unless(no_light, redraw || relit, "light or camera changed", "nothing changed"));
-    plan.push(Pass::SliceOctree, view(View::Slice, settings, wanted, redraw || relit));
-    plan.push(Pass::ShowShadowMap, show_shadow_map(plan, scene, changed, settings));
-    plan.push(Pass::DrawMesh, draw_mesh(scene, changed, settings));
-    plan.push(Pass::ReduceExact, reduce_exact(changed, settings, wanted));
-    plan.push(Pass::MarchGhost, ghost(changed, settings, wanted, redraw));
-    plan.push(Pass::BuildOther, build_other(changed, settings, wanted, rebuilt));
-    plan.push(Pass::CompareExact, compare_exact(changed, settings, wanted, rebuilt));
-}
-
-fn show_shadow_map(plan: &FramePlan, scene: &SceneFacts, changed: &Changes, settings: &Settings) -> Verdict {
-    let skip = (settings.look.view != View::ShadowMap)
-        .then_some("another view is shown")
-        .or((scene.lights == 0).then_some("no light in the scene"))
-        .or((scene.triangles == 0).then_some("no triangles"));
-    unless(skip, changed.view || plan.runs(Pass::DrawShadows), "shadow map or look changed", "nothing changed")
-}
+use super::{Asked, Key, KeyBuilder, Part, Pass, WantedFor};
+use crate::data::octree::PointerLayout;
+use crate::settings::{ColorBy, Filter, Lookup, View};
 
 /// Why no octree is called for, if so.
-pub(super) fn octree_wanted(scene: &SceneFacts, settings: &Settings) -> Option<&'static str> {
-    if scene.voxels() == 0 {
-        Some("no voxels in the grid")
-    } else if settings.look.view == View::Mesh && !settings.look.accuracy {
-        Some("the mesh view shows no voxels")
-    } else if settings.look.view == View::ShadowMap && !settings.look.accuracy {
-        Some("the shadow map shows no voxels")
-    } else if settings.look.view == View::Surfaces && !settings.look.accuracy && !reads_octree(scene, settings) {
-        Some("no cone and no shadow asks the octree")
-    } else {
-        None
+pub(super) fn octree_skipped(asked: &Asked) -> Option<&'static str> {
+    if asked.scene.voxels() == 0 {
+        return Some("no voxels in the grid");
+    }
+    match asked.settings.look.view {
+        _ if asked.compares() => None,
+        View::Mesh => Some("the mesh view shows no voxels"),
+        View::ShadowMap => Some("the shadow map shows no voxels"),
+        View::Surfaces if !reads_octree(asked) => Some("no cone and no shadow asks the octree"),
+        View::Surfaces | View::Voxels | View::Ghost | View::Slice => None,
     }
 }
 
-fn reads_octree(scene: &SceneFacts, settings: &Settings) -> bool {
-    ConesAsked::new(scene, settings).any() || marches_shadows(scene, settings)
+fn reads_octree(asked: &Asked) -> bool {
+    ConesAsked::new(asked).any() || marches_shadows(asked)
 }
 
-fn transform_rigid(scene: &SceneFacts, changed: &Changes, wanted: Option<&'static str>) -> Verdict {
-    let skip = wanted.or((scene.rigid_voxels == 0).then_some("no rigid object in the grid"));
-    if changed.caches || changed.residents {
-        return unless(skip, true, "new voxels in the pages", "");
+/// The key is made unless there is a reason against it.
+pub(super) fn unless(skipped: Option<&'static str>) -> Result<(), &'static str> {
+    skipped.map_or(Ok(()), Err)
+}
+
+pub(super) fn caches(asked: &Asked) -> Wanted {
+    unless(octree_skipped(asked))?;
+    Ok(Key::of(Part::Caches).digest("new caches", asked.contents.caches).build())
+}
+
+pub(super) fn pages(asked: &Asked, keys: &Keys) -> Wanted {
+    let key = Key::of(Part::Pages).input("new caches", Part::Caches, keys.wanted(Part::Caches)?);
+    let key = key.digest("objects entered or left the grid", asked.contents.residents);
+    Ok(key.method("another anchor", &asked.settings.discretization.anchor).build())
+}
+
+pub(super) fn rigid(asked: &Asked, keys: &Keys) -> Wanted {
+    let pages = keys.wanted(Part::Pages)?;
+    unless((asked.scene.rigid_voxels == 0).then_some("no rigid object in the grid"))?;
+    let key = Key::of(Part::RigidVoxels).input("new voxels in the pages", Part::Pages, pages);
+    Ok(key.digest("rigid motion", asked.contents.rigid).build())
+}
+
+pub(super) fn skinned(asked: &Asked, keys: &Keys) -> Wanted {
+    let pages = keys.wanted(Part::Pages)?;
+    unless((asked.scene.skinned_voxels == 0).then_some("no skin in the grid"))?;
+    let key = Key::of(Part::SkinnedVoxels).input("new voxels in the pages", Part::Pages, pages);
+    Ok(key.digest("skinned motion", asked.contents.skinned).build())
+}
+
+/// World voxels in their pages, as far as there are any.
+pub(super) fn from_voxels(key: KeyBuilder, keys: &Keys) -> Result<KeyBuilder, &'static str> {
+    let key = key.input("voxels moved", Part::Pages, keys.wanted(Part::Pages)?);
+    let halves = [Part::RigidVoxels, Part::SkinnedVoxels].into_iter().filter_map(|part| Some((part, keys.get(part)?)));
+    Ok(halves.fold(key, |key, (part, voxels)| key.input("voxels moved", part, voxels)))
+}
+
+/// What readers bind of an octree.
+pub(super) fn from_octree(key: KeyBuilder, changed: &'static str, keys: &Keys) -> Result<KeyBuilder, &'static str> {
+    let parts = [Part::Masks, Part::Topology, Part::Payload];
+    parts.into_iter().try_fold(key, |key, part| Ok(key.input(changed, part, keys.wanted(part)?)))
+}
+
+pub(super) fn masks(asked: &Asked, keys: &Keys) -> Wanted {
+    let discretization = &asked.settings.discretization;
+    let key = from_voxels(Key::of(Part::Masks), keys)?.method("another filter", &discretization.filter);
+    Ok(key.method("another dense level", &(discretization.depth(), discretization.dense_level())).build())
+}
+
+pub(super) fn topology(keys: &Keys) -> Wanted {
+    Ok(Key::of(Part::Topology).input("voxels moved", Part::Masks, keys.wanted(Part::Masks)?).build())
+}
+
+pub(super) fn payload(keys: &Keys) -> Wanted {
+    let key = Key::of(Part::Payload).input("voxels moved", Part::Masks, keys.wanted(Part::Masks)?);
+    let key = key.input("voxels moved", Part::Topology, keys.wanted(Part::Topology)?);
+    Ok(from_voxels(key, keys)?.build())
+}
+
+pub(super) fn object_numbers(asked: &Asked, keys: &Keys) -> Wanted {
+    let octree = from_octree(Key::of(Part::ObjectNumbers), "colour by object", keys)?;
+    let is_looked_at = asked.shows(View::Voxels) && asked.settings.look.color == ColorBy::Object;
+    unless((!is_looked_at).then_some("colour is not by object"))?;
+    Ok(from_voxels(octree, keys)?.build())
+}
+
+/// The pointers that a look-up follows, which must then be linked.
+pub(super) fn followed(lookup: Lookup) -> Option<Part> {
+    match lookup {
+        Lookup::Ranks => None,
+        Lookup::BlockPointers => Some(Part::BlockLinks),
+        Lookup::NodePointers => Some(Part::NodeLinks),
     }
-    unless(skip, changed.rigid_poses, "rigid motion", "no rigid object moved")
 }
 
-fn transform_skinned(scene: &SceneFacts, changed: &Changes, wanted: Option<&'static str>) -> Verdict {
-    let skip = wanted.or((scene.skinned_voxels == 0).then_some("no skin in the grid"));
-    if changed.caches || changed.residents {
-        return unless(skip, true, "new voxels in the pages", "");
+/// The way of look-up whose pointers the picture follows.
+pub(super) fn lookup(asked: &Asked) -> Lookup {
+    match asked.settings.look.view {
+        View::Slice => asked.settings.look.slice.lookup,
+        View::Surfaces if ConesAsked::new(asked).any() => asked.settings.cone_tracing.lookup,
+        View::Surfaces | View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => Lookup::Ranks,
     }
-    unless(skip, changed.skinned_poses, "skinned motion", "pose unchanged")
 }
 
-fn build_pass(wanted: Option<&'static str>, moved: bool, rebuilt: bool) -> Verdict {
-    unless(wanted, rebuilt, if moved { "voxels moved" } else { "filter or dense level changed" }, "voxels unchanged")
+/// The layout that a part of pointers has.
+pub fn layout_of(part: Part) -> PointerLayout {
+    if part == Part::NodeLinks { PointerLayout::Nodes } else { PointerLayout::Blocks }
 }
 
-fn gather(filter: Filter, settings: &Settings, wanted: Option<&'static str>, moved: bool, rebuilt: bool) -> Verdict {
-    let other = match filter {
-        Filter::Nearest => "the filter is split",
-        Filter::Split => "the filter is nearest",
-    };
-    build_pass(wanted.or((settings.discretization.filter != filter).then_some(other)), moved, rebuilt)
+/// The window draws and follows pointers of this part.
+pub(super) fn links_are_shown(part: Part, asked: &Asked) -> bool {
+    part == Part::BlockLinks && asked.settings.look.pointers && asked.wanted_for == WantedFor::Picture
 }
 
-fn number_objects(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, rebuilt: bool) -> Verdict {
-    let looked_at = settings.look.view == View::Voxels && settings.look.color == ColorBy::Object;
-    let skip = wanted.or((!looked_at).then_some("colour is not by object"));
-    unless(skip, rebuilt || changed.object_numbers, "colour by object", "voxels unchanged")
+pub(super) fn links(part: Part, asked: &Asked, keys: &Keys) -> Wanted {
+    let masks = keys.wanted(Part::Masks)?;
+    let is_followed = followed(lookup(asked)) == Some(part) && asked.wanted_for == WantedFor::Picture;
+    unless((!is_followed && !links_are_shown(part, asked)).then_some("no pointer is followed or shown"))?;
+    let changed = "pointers are followed or shown";
+    let key = Key::of(part).input(changed, Part::Masks, masks);
+    Ok(key.input(changed, Part::Topology, keys.wanted(Part::Topology)?).build())
 }
 
-fn build_other(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, rebuilt: bool) -> Verdict {
-    let skip = wanted.or((!settings.look.accuracy).then_some("accuracy is not looked at"));
-    unless(skip, rebuilt || changed.other_octree, "the other filter, same pose", "voxels unchanged")
-}
-
-fn compare_exact(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, rebuilt: bool) -> Verdict {
-    let skip = wanted
-        .or((!settings.look.accuracy).then_some("accuracy is not looked at"))
-        .or((!changed.exact_known).then_some("the exact voxels of this pose are not made yet"));
-    unless(skip, rebuilt || changed.exact, "voxels or exact set changed", "both sets unchanged")
-}
-
-/// Why no ghost is drawn, if so.
-fn ghost_skipped(changed: &Changes, settings: &Settings, wanted: Option<&'static str>) -> Option<&'static str> {
-    wanted
-        .or((settings.look.view != View::Ghost).then_some("another view is shown"))
-        .or((!changed.exact_known).then_some("the exact voxels of this pose are not made yet"))
-}
-
-fn reduce_exact(changed: &Changes, settings: &Settings, wanted: Option<&'static str>) -> Verdict {
-    let skip = ghost_skipped(changed, settings, wanted);
-    unless(skip, changed.exact_masks, "new exact voxels", "exact voxels unchanged")
-}
-
-fn ghost(changed: &Changes, settings: &Settings, wanted: Option<&'static str>, redraw: bool) -> Verdict {
-    let skip = ghost_skipped(changed, settings, wanted);
-    unless(skip, redraw || changed.exact_masks, "voxels, exact set or camera changed", "nothing changed")
-}
-
-fn view(which: View, settings: &Settings, wanted: Option<&'static str>, redraw: bool) -> Verdict {
-    let skip = wanted.or((settings.look.view != which).then_some("another view is shown"));
-    unless(skip, redraw, "voxels or camera changed", "nothing changed")
-}
-
-fn draw_mesh(scene: &SceneFacts, changed: &Changes, settings: &Settings) -> Verdict {
-    let skip = (scene.triangles == 0)
-        .then_some("no triangles")
-        .or((settings.look.view != View::Mesh).then_some("another view is shown"));
-    unless(skip, changed.view, "pose or camera changed", "nothing changed")
+/// Why a pass of a part that is made is left out, if so.
+pub(super) fn left_out(pass: Pass, asked: &Asked) -> Option<&'static str> {
+    let filter = asked.settings.discretization.filter;
+    match pass {
+        Pass::GatherNearest => (filter != Filter::Nearest).then_some("the filter is split"),
+        Pass::GatherSplit => (filter != Filter::Split).then_some("the filter is nearest"),
+        _ => None,
+    }
 }

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::{MotionError, Prepared, PreparedObject};
 use crate::data::grid::morton_key;
 use crate::data::packing::{unpack_normal, unpack_rgba8};
+use crate::digest::Digest;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{AlphaMode, Pose};
 use crate::settings::{Hidden, MotionSettings, VisibilityError};
@@ -19,6 +20,8 @@ pub struct ExactVoxels {
     /// One bit a cell in Morton order, as the octree's leaf bits.
     pub bits: Vec<u32>,
     pub count: u64,
+    /// Of what they are exact: pose, hidden objects and grid, as [`Prepared::placed`] tells.
+    pub placed: Digest,
     /// Objects that could not be voxelized in this pose, a sentence each.
     pub warnings: Vec<String>,
 }
@@ -60,7 +63,8 @@ impl Prepared {
         let pose = self.pose(motion)?;
         let per_object = self.each_shown(hidden, progress, |object| self.posed_cells(object, &pose, progress))?;
         let words = (1_usize << (3 * self.grid.depth)).div_ceil(32);
-        let mut exact = ExactVoxels { bits: vec![0; words], count: 0, warnings: Vec::new() };
+        let placed = self.placed(&pose, hidden);
+        let mut exact = ExactVoxels { bits: vec![0; words], count: 0, placed, warnings: Vec::new() };
         for cells in per_object {
             match cells {
                 Ok(cells) => cells.iter().filter_map(|cell| self.key_inside(*cell)).for_each(|key| exact.insert(key)),

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use glam::{DMat4, DVec3, IVec3};
 
 use super::{Prepared, PreparedPart};
+use crate::data::voxel_cache::{Tile, VoxelCache};
 use crate::scene::{Motion, Pose};
 use crate::settings::{Hidden, MotionSettings, VoxelAnchor};
 use crate::stages::transform::{Matrix3x4, Part};
@@ -97,6 +98,18 @@ impl Prepared {
     }
 }
 
+/// Joints with a weight in any voxel of a tile, each once, in order.
+pub(super) fn used_joints(cache: &VoxelCache, tile: &Tile) -> Vec<usize> {
+    let records = &cache.joints[tile.voxels.start as usize..tile.voxels.end as usize];
+    let mut is_used = vec![false; usize::from(u16::MAX) + 1];
+    for record in records {
+        for (&joint, _) in record.joints.iter().zip(&record.weights).filter(|&(_, &weight)| weight > 0) {
+            is_used[usize::from(joint)] = true;
+        }
+    }
+    (0..is_used.len()).filter(|&joint| is_used[joint]).collect()
+}
+
 struct Fold<'a> {
     prepared: &'a Prepared,
     grid_from_world: DMat4,
@@ -139,7 +152,7 @@ impl Fold<'_> {
         }
         let folded = &self.skins[&skin];
         let used: Option<Vec<&DMat4>> =
-            self.used_joints(part).into_iter().map(|joint| folded.grid_from_cells[joint].as_ref()).collect();
+            part.joints.iter().map(|&joint| folded.grid_from_cells[joint].as_ref()).collect();
         let reaches = |used: &Vec<&DMat4>| {
             let boxes = used.iter().map(|matrix| MovedBox::of(matrix, part));
             boxes.fold(MovedBox::EMPTY, MovedBox::union).touches_grid(self.prepared.grid.cells())
@@ -166,23 +179,6 @@ impl Fold<'_> {
             self.frame.matrices.push(rounded.unwrap_or_default());
         }
         FoldedSkin { first_matrix, base, grid_from_cells }
-    }
-
-    fn used_joints(&self, part: &PreparedPart) -> Vec<usize> {
-        let cache = &self.prepared.caches[self.prepared.objects[part.object].cache];
-        let records = &cache.joints[part.tile.voxels.start as usize..part.tile.voxels.end as usize];
-        let mut used: Vec<usize> = Vec::new();
-        let mut seen = [0_u64; 1024];
-        for record in records {
-            for (&joint, _) in record.joints.iter().zip(&record.weights).filter(|&(_, &weight)| weight > 0) {
-                let (word, bit) = (usize::from(joint) / 64, 1 << (joint % 64));
-                if seen[word] & bit == 0 {
-                    seen[word] |= bit;
-                    used.push(usize::from(joint));
-                }
-            }
-        }
-        used
     }
 
     /// Folds origin and anchor into the translation, then rounds to f32 once. `None` if that is not

@@ -68,6 +68,8 @@ pub struct PreparedPart {
     pub tile: Tile,
     /// Largest position in the tile, plus one, per axis: with `tile.origin` its box in cells.
     pub extent_cells: glam::IVec3,
+    /// Joints that move any of its voxels; none where it is rigid.
+    pub joints: Vec<usize>,
 }
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -174,6 +176,11 @@ impl Prepared {
         self.parts.iter().map(|part| part.tile.voxels.len() as u64).sum()
     }
 
+    /// Rigid parts come first, with one matrix each.
+    pub fn rigid_parts(&self) -> usize {
+        self.parts.iter().take_while(|part| !self.is_skinned(part)).count()
+    }
+
     pub fn is_skinned(&self, part: &PreparedPart) -> bool {
         matches!(self.objects[part.object].object.motion, Motion::Skinned { .. })
     }
@@ -213,6 +220,7 @@ fn list_parts(objects: &[PreparedObject], caches: &[Arc<VoxelCache>]) -> Vec<Pre
                 object: index,
                 tile: tile.clone(),
                 extent_cells: lattice::tile_extent(cache, tile),
+                joints: if skinned { fold::used_joints(cache, tile) } else { Vec::new() },
             }));
         }
     }

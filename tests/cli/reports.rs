@@ -50,7 +50,7 @@ fn info_reads_well_without_json() {
 fn states(plan: &Value) -> Vec<(String, String)> {
     let text = |value: &Value| value.as_str().expect("text").to_owned();
     let row = |row: &Value| {
-        assert_eq!(fields(row), ["pass", "reason", "state"]);
+        assert_eq!(fields(row), ["method", "pass", "reason", "state"]);
         assert!(!text(&row["reason"]).is_empty());
         (text(&row["pass"]), text(&row["state"]))
     };

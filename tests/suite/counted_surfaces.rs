@@ -72,7 +72,9 @@ fn nothing_is_dispatched_when_still_and_cones_alone_when_they_change() {
     let diffuse = [Pass::TraceDiffuse, Pass::BlurDiffuse, Pass::UpsampleDiffuse];
     assert_eq!(running(&counted.frame().0), [&diffuse[..], &shown].concat());
     counted.settings.cone_tracing.specular = false;
-    assert_eq!(running(&counted.frame().0), [], "what was traced is still there");
+    assert_eq!(running(&counted.frame().0), shown, "without the term that is off");
+    counted.settings.cone_tracing.specular = true;
+    assert_eq!(running(&counted.frame().0), [], "what was traced, and the picture of it, is still there");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Emission from caches to leaves: kernels against references, order-free to the bit.
 
 use glam::DVec3;
-use octolume::data::light::{EMISSION_MAX, LightBuffers, pack_emission};
+use octolume::data::light::{EMISSION_MAX, EmissionBuffers, pack_emission};
 use octolume::settings::Filter;
 use octolume::stages::fill::gather_emission_ref;
 use octolume::stages::fill::gather_ref::Fragment;
@@ -44,7 +44,7 @@ fn gathered(voxels: &[Fragment], emission: &[[u32; 2]], filter: Filter) -> Gathe
     let built = world.build_in(gpu(), &Shape::new(5, 3, filter), &mut buffers);
     let fill = Filling::made(buffers.octree()).expect("built");
     let cache_emission = upload(gpu(), "cache emission", emission);
-    let (mut light, sizes) = (LightBuffers::default(), buffers.octree().sizes);
+    let (mut light, sizes) = (EmissionBuffers::default(), buffers.octree().sizes);
     let emission = Emission::new(gpu(), &mut light, sizes, (cache_emission, world.list.threads)).expect("fits");
     run(gpu(), |frame| {
         place_emission::record(gpu(), frame, &world.moving, sizes, &fill, &emission);

@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use octolume::digest::Digest;
 use octolume::engine::Engine;
 use octolume::gpu::{Counters, Gpu};
-use octolume::plan::{Changes, FramePlan, Pass, SceneFacts, State, plan};
+use octolume::plan::{Asked, Contents, FramePlan, Held, Part, Pass, SceneFacts, State, WantedFor, plan};
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{OrbitCamera, Scene, Trs};
@@ -24,51 +25,31 @@ pub const RIGID: SceneFacts = SceneFacts {
     picture_px: [64, 48],
 };
 const SKINNED: SceneFacts = SceneFacts { rigid_voxels: 0, skinned_voxels: 100, ..RIGID };
-pub const FIRST: Changes = Changes {
-    caches: true,
-    residents: true,
-    rigid_poses: true,
-    skinned_poses: true,
-    octree: true,
-    other_octree: true,
-    exact: false,
-    exact_masks: false,
-    exact_known: false,
-    view: true,
-    object_numbers: true,
-    links: true,
-    emission: true,
-    shadow_maps: true,
-    lighting: true,
-    irradiance: true,
-    surfaces: true,
-    direct: true,
-    diffuse: true,
-    specular: true,
-};
-/// Nothing changed since a frame that had no object numbers, no second octree and no light.
-pub const STILL: Changes = Changes {
-    caches: false,
-    residents: false,
-    rigid_poses: false,
-    skinned_poses: false,
-    octree: false,
-    other_octree: true,
-    exact: false,
-    exact_masks: false,
-    exact_known: false,
-    view: false,
-    object_numbers: true,
-    links: true,
-    emission: true,
-    shadow_maps: true,
-    lighting: true,
-    irradiance: true,
-    surfaces: true,
-    direct: true,
-    diffuse: true,
-    specular: true,
-};
+
+/// The plan of a first frame.
+pub fn first(scene: &SceneFacts, settings: &Settings) -> FramePlan {
+    plan(&[Asked::new(*scene, settings.clone())], &Held::default())
+}
+
+/// The plan of the frame behind one of `before`.
+pub fn after(before: &Asked, now: &Asked) -> FramePlan {
+    let mut held = Held::default();
+    held.hold_all(&plan(std::slice::from_ref(before), &held));
+    plan(std::slice::from_ref(now), &held)
+}
+
+/// The plan of a frame whose contents differ as told from the frame before.
+pub fn changed(scene: &SceneFacts, settings: &Settings, change: impl FnOnce(&mut Asked)) -> FramePlan {
+    let before = Asked::new(*scene, settings.clone());
+    let mut now = before.clone();
+    change(&mut now);
+    after(&before, &now)
+}
+
+/// Another content than the one that every scene has at first.
+pub fn other() -> Digest {
+    Digest::of(&1)
+}
 
 const BUILD: [Pass; 7] = [
     Pass::MarkLeaves,
@@ -95,55 +76,69 @@ fn with(passes: &[Pass]) -> Vec<Pass> {
 
 #[test]
 fn every_pass_has_one_row_with_a_reason() {
-    let plan = plan(&RIGID, &FIRST, &Settings::default());
+    let plan = first(&RIGID, &Settings::default());
     assert_eq!(plan.rows.iter().map(|row| row.pass).collect::<Vec<_>>(), Pass::ALL);
     assert!(plan.rows.iter().all(|row| !row.reason.is_empty()));
 }
 
 #[test]
+fn passes_and_parts_are_numbered_as_they_are_listed_and_every_part_has_a_pass() {
+    assert!(Pass::ALL.into_iter().enumerate().all(|(number, pass)| pass as usize == number));
+    assert!(Part::ALL.into_iter().enumerate().all(|(number, part)| part as usize == number));
+    let made = |part: &Part| Pass::ALL.into_iter().any(|pass| pass.parts().contains(part));
+    assert!(Part::ALL.iter().all(made));
+}
+
+#[test]
 fn the_first_frame_runs_what_the_scene_has() {
-    let rigid = plan(&RIGID, &FIRST, &Settings::default());
+    let rigid = first(&RIGID, &Settings::default());
     let expected =
         [&[Pass::UploadCaches, Pass::ObjectIo, Pass::TransformRigid, Pass::MarchVoxels], &BUILD[..]].concat();
     assert_eq!(running(&rigid), with(&expected));
     assert_eq!(reason(&rigid, Pass::TransformSkinned), (State::Skip, "no skin in the grid"));
-    let skinned = plan(&SKINNED, &FIRST, &Settings::default());
+    assert_eq!(reason(&rigid, Pass::MarkLeaves), (State::Run, "made for the first time"));
+    let skinned = first(&SKINNED, &Settings::default());
     assert!(skinned.runs(Pass::TransformSkinned) && !skinned.runs(Pass::TransformRigid));
 }
 
 #[test]
 fn nothing_changed_runs_nothing() {
     for facts in [RIGID, SKINNED, SceneFacts::default()] {
-        assert!(plan(&facts, &STILL, &Settings::default()).is_idle());
+        assert!(changed(&facts, &Settings::default(), |_| {}).is_idle());
     }
 }
 
 #[test]
 fn a_moved_camera_runs_the_view_alone() {
-    let changed = Changes { view: true, ..STILL };
-    assert_eq!(running(&plan(&RIGID, &changed, &Settings::default())), [Pass::MarchVoxels]);
+    let plan = changed(&RIGID, &Settings::default(), |asked| asked.contents.camera = other());
+    assert_eq!(running(&plan), [Pass::MarchVoxels]);
+    assert_eq!(reason(&plan, Pass::MarchVoxels), (State::Run, "the camera moved"));
+    assert_eq!(reason(&plan, Pass::TransformRigid), (State::Reuse, "no rigid object moved"));
 }
 
 #[test]
-fn a_pose_rebuilds_without_new_caches() {
-    let changed = Changes { skinned_poses: true, ..STILL };
+fn a_pose_rebuilds_without_new_caches_and_every_row_names_what_differs() {
+    let plan = changed(&SKINNED, &Settings::default(), |asked| asked.contents.skinned = other());
     let expected = [&[Pass::TransformSkinned, Pass::MarchVoxels], &BUILD[..]].concat();
-    assert_eq!(running(&plan(&SKINNED, &changed, &Settings::default())), with(&expected));
+    assert_eq!(running(&plan), with(&expected));
+    for pass in expected {
+        assert_eq!(reason(&plan, pass), (State::Run, "skinned motion"), "{pass:?}");
+    }
 }
 
 #[test]
 fn another_filter_moves_nothing() {
-    let mut settings = Settings::default();
-    settings.discretization.filter = Filter::Nearest;
-    let plan = plan(&RIGID, &Changes { octree: true, ..STILL }, &settings);
+    let nearest = |asked: &mut Asked| asked.settings.discretization.filter = Filter::Nearest;
+    let plan = changed(&RIGID, &Settings::default(), nearest);
     assert_eq!(reason(&plan, Pass::TransformRigid).0, State::Reuse);
     assert_eq!(reason(&plan, Pass::GatherSplit), (State::Skip, "the filter is nearest"));
-    assert!(plan.runs(Pass::GatherNearest) && plan.runs(Pass::MarkLeaves));
+    assert_eq!(reason(&plan, Pass::MarkLeaves), (State::Run, "another filter"));
+    assert!(plan.runs(Pass::GatherNearest));
 }
 
 #[test]
 fn an_empty_grid_runs_nothing() {
-    let plan = plan(&SceneFacts::default(), &FIRST, &Settings::default());
+    let plan = first(&SceneFacts::default(), &Settings::default());
     assert!(plan.is_idle());
     assert_eq!(reason(&plan, Pass::MarkLeaves), (State::Skip, "no voxels in the grid"));
 }
@@ -152,38 +147,64 @@ fn an_empty_grid_runs_nothing() {
 fn the_mesh_view_builds_no_octree() {
     let mut settings = Settings::default();
     settings.look.view = View::Mesh;
-    assert_eq!(running(&plan(&RIGID, &FIRST, &settings)), [Pass::DrawMesh]);
+    assert_eq!(running(&first(&RIGID, &settings)), [Pass::DrawMesh]);
     settings.look.accuracy = true;
-    assert!(plan(&RIGID, &FIRST, &settings).runs(Pass::GatherSplit));
+    assert!(first(&RIGID, &settings).runs(Pass::GatherSplit));
 }
 
 #[test]
 fn objects_are_numbered_only_when_looked_at() {
-    let mut settings = Settings::default();
-    assert_eq!(reason(&plan(&RIGID, &FIRST, &settings), Pass::NumberObjects).0, State::Skip);
-    settings.look.color = ColorBy::Object;
-    assert_eq!(
-        running(&plan(&RIGID, &Changes { view: true, ..STILL }, &settings)),
-        [Pass::NumberObjects, Pass::MarchVoxels]
-    );
+    let settings = Settings::default();
+    assert_eq!(reason(&first(&RIGID, &settings), Pass::NumberObjects).0, State::Skip);
+    let plan = changed(&RIGID, &settings, |asked| asked.settings.look.color = ColorBy::Object);
+    assert_eq!(running(&plan), [Pass::NumberObjects, Pass::MarchVoxels]);
+}
+
+/// The two methods of a request that measures both filters.
+fn measured(exact: Option<Digest>) -> [Asked; 2] {
+    let mut shown = Asked::new(RIGID, Settings::default());
+    shown.settings.look.accuracy = true;
+    shown.contents.exact = exact;
+    let mut other = Asked { wanted_for: WantedFor::Comparison, ..shown.clone() };
+    other.settings.discretization.filter = Filter::Nearest;
+    [shown, other]
 }
 
 #[test]
 fn accuracy_builds_the_other_filter_and_compares_once_the_exact_set_is_known() {
-    let mut settings = Settings::default();
-    settings.look.accuracy = true;
-    assert_eq!(running(&plan(&RIGID, &STILL, &settings)), [Pass::BuildOther]);
-    let known = Changes { exact: true, exact_known: true, other_octree: false, ..STILL };
-    assert_eq!(running(&plan(&RIGID, &known, &settings)), [Pass::CompareExact]);
+    let mut held = Held::default();
+    held.hold_all(&plan(&[Asked::new(RIGID, Settings::default())], &held));
+    let built = plan(&measured(None), &held);
+    let nearest = BUILD.map(|pass| if pass == Pass::GatherSplit { Pass::GatherNearest } else { pass });
+    assert_eq!(running(&built), with(&nearest), "of the other method alone; nothing is moved or drawn");
+    assert!(built.rows.iter().all(|row| row.state != State::Run || row.method == 1));
+    held.hold_all(&built);
+    assert_eq!(running(&plan(&measured(Some(other())), &held)), [Pass::UploadExact, Pass::CompareExact]);
+}
+
+#[test]
+fn what_two_methods_share_is_made_once() {
+    let plan = plan(&measured(None), &Held::default());
+    let count = |part: Part| plan.to_run().iter().filter(|planned| planned.part == part).count();
+    assert_eq!([Part::Caches, Part::Pages, Part::RigidVoxels].map(count), [1; 3]);
+    assert_eq!([Part::Masks, Part::Topology, Part::Payload].map(count), [2; 3]);
+    assert_eq!(count(Part::Picture), 1);
 }
 
 #[test]
 fn the_ghost_waits_for_the_exact_set() {
     let mut settings = Settings::default();
+    let mut before = Asked::new(RIGID, settings.clone());
     settings.look.view = View::Ghost;
-    assert!(plan(&RIGID, &STILL, &settings).is_idle());
-    let known = Changes { exact: true, exact_masks: true, exact_known: true, ..STILL };
-    assert_eq!(running(&plan(&RIGID, &known, &settings)), [Pass::ReduceExact, Pass::MarchGhost]);
+    let mut ghost = Asked::new(RIGID, settings);
+    assert!(after(&before, &ghost).is_idle());
+    ghost.contents.exact = Some(other());
+    assert_eq!(running(&after(&before, &ghost)), [Pass::UploadExact, Pass::ReduceExact, Pass::MarchGhost]);
+    before = ghost.clone();
+    ghost.contents.rigid = other();
+    ghost.contents.exact = None;
+    let moved = after(&before, &ghost);
+    assert!(moved.runs(Pass::MarkLeaves) && !moved.runs(Pass::MarchGhost), "the ghost of another pose is no ghost");
 }
 
 const VIEWS: [View; 6] = [View::Voxels, View::Mesh, View::Ghost, View::Slice, View::ShadowMap, View::Surfaces];
@@ -199,26 +220,54 @@ const PICTURES: [Pass; 7] = [
 ];
 
 proptest! {
-    /// What runs is never skipped by another rule: no view without its octree, no gather twice.
+    /// What runs is never skipped by another rule: no view without its octree, no gather twice. What runs is made from
+    /// what is held or runs before it.
     #[test]
-    fn plans_are_consistent(bits in 0_u32..1 << 20, view in 0_usize..6, accuracy: bool, rigid in 0_u64..2, skinned in 0_u64..2) {
-        let bit = |index: u32| bits >> index & 1 == 1;
-        let changed = Changes {
-            caches: bit(0), residents: bit(1), rigid_poses: bit(2), skinned_poses: bit(3), octree: bit(4),
-            other_octree: bit(5), exact: bit(6), exact_masks: bit(7), exact_known: bit(8), view: bit(9),
-            object_numbers: bit(10), links: bit(11), emission: bit(12), shadow_maps: bit(13), lighting: bit(14),
-            irradiance: bit(15), surfaces: bit(16), direct: bit(17), diffuse: bit(18), specular: bit(19),
-        };
+    fn plans_are_consistent(
+        bits in 0_u32..1 << 9,
+        view in 0_usize..6,
+        before in 0_usize..6,
+        accuracy: bool,
+        rigid in 0_u64..2,
+        skinned in 0_u64..2,
+        lights in 0_u32..2,
+    ) {
+        let digest = |index: u32| Digest::of(&(bits >> index & 1));
+        let scene = SceneFacts { rigid_voxels: rigid, skinned_voxels: skinned, lights, ..RIGID };
         let mut settings = Settings::default();
+        settings.look.view = VIEWS[before];
+        let mut held = Held::default();
+        held.hold_all(&plan(&[Asked::new(scene, settings.clone())], &held));
         settings.look.view = VIEWS[view];
         settings.look.accuracy = accuracy;
-        let plan = plan(&SceneFacts { rigid_voxels: rigid, skinned_voxels: skinned, ..RIGID }, &changed, &settings);
+        let mut asked = Asked::new(scene, settings);
+        asked.contents = Contents {
+            caches: digest(0), residents: digest(1), rigid: digest(2), skinned: digest(3), placed: digest(4),
+            lights: digest(5), shadow_maps: digest(6), camera: digest(7), exact: (bits >> 8 == 1).then(other),
+        };
+        let plan = plan(&[asked], &held);
         let runs = |pass| plan.runs(pass);
         prop_assert!(PICTURES.into_iter().filter(|&pass| runs(pass)).count() <= 1);
         prop_assert!(!(runs(Pass::GatherNearest) && runs(Pass::GatherSplit)));
         prop_assert_eq!(runs(Pass::MarkLeaves), runs(Pass::AverageNodes));
         prop_assert!(!(runs(Pass::TransformRigid) || runs(Pass::TransformSkinned)) || runs(Pass::MarkLeaves));
+        for planned in plan.to_run() {
+            for (part, key) in planned.key.inputs() {
+                held_or_before(&plan, &held, (planned.part, part), key)?;
+            }
+        }
     }
+}
+
+fn held_or_before(
+    plan: &FramePlan,
+    held: &Held,
+    (made, from): (Part, Part),
+    key: &octolume::plan::Key,
+) -> Result<(), TestCaseError> {
+    let runs = plan.to_run().iter().any(|planned| planned.part == from && planned.key == *key);
+    prop_assert!(from < made && (runs || held.holds(from, key)), "{made:?} from {from:?}");
+    Ok(())
 }
 
 /// An engine on a device of its own, so that counts are its alone.
@@ -356,4 +405,48 @@ fn a_frame_built_anew_equals_the_one_that_reused() {
     fresh.frame();
     let read = |counted: &Counted| counted.engine.read_voxels().expect("voxels");
     assert_eq!(read(&reusing), read(&fresh));
+}
+
+#[test]
+fn two_filters_share_what_is_moved_and_switching_back_rebuilds_nothing() {
+    let mut counted = Counted::new(sliding_scene());
+    let filters = [Filter::Nearest, Filter::Split, Filter::Nearest, Filter::Split];
+    let plans = filters.map(|filter| {
+        counted.settings.discretization.filter = filter;
+        counted.frame().0
+    });
+    assert!(plans[0].runs(Pass::TransformRigid) && !plans[1].runs(Pass::TransformRigid));
+    assert!(plans[1].runs(Pass::GatherSplit));
+    assert!(plans[2].is_idle() && plans[3].is_idle(), "the octrees and their pictures are there");
+    counted.settings.look.accuracy = true;
+    assert!(counted.frame().0.is_idle(), "and nothing is compared yet");
+    counted.settings.motion.time_secs = 0.5;
+    let before = counted.before.dispatches.clone();
+    counted.frame();
+    let times = |kernel: &str| counted.before.dispatches[kernel] - before[kernel];
+    assert_eq!(
+        [times("transform/rigid"), times("build/mark"), times("fill/gather"), times("view/march")],
+        [1, 2, 2, 1]
+    );
+}
+
+#[test]
+fn no_more_is_kept_than_is_stated() {
+    let mut counted = Counted::new(sliding_scene());
+    let bytes = |counted: &Counted| counted.engine.gpu().bytes_in_use();
+    counted.frame();
+    let one = bytes(&counted);
+    for frame in 1..20_u32 {
+        counted.settings.motion.time_secs = f64::from(frame) * 0.05;
+        counted.frame();
+    }
+    // A second picture, so that the one on screen stays while the next is drawn; buffers grow with the octree.
+    assert!(bytes(&counted) < 2 * one, "a playing clip keeps {} bytes, one frame {one}", bytes(&counted));
+    counted.settings.discretization.filter = Filter::Nearest;
+    counted.frame();
+    let both = bytes(&counted);
+    counted.engine.keep_bytes(0);
+    counted.settings.look.camera = Some(OrbitCamera::default());
+    counted.frame();
+    assert!(bytes(&counted) < both, "what is not shown goes");
 }

@@ -1,18 +1,16 @@
 //! The plan's rules of light, one by one; then what the engine really did, counted against it.
 
 use glam::DVec3;
-use octolume::plan::{Changes, Pass, SceneFacts, State, plan};
+use octolume::plan::{Asked, Pass, SceneFacts, State};
 use octolume::scene::{Light, LightKind, Material, OrbitCamera, Scene, Trs};
 use octolume::settings::lighting::{LightEdit, Opacity, Shadows, SunShines};
 use octolume::settings::{ColorBy, Lookup, Sampling, Settings, SliceValue, View};
 use octolume::stages::sample::Sampler;
 
-use crate::plan::{Counted, FIRST, RIGID, STILL, reason, running};
+use crate::plan::{Counted, RIGID, changed, first, other, reason, running};
 use crate::scenes::{cube_scene, node, sliding_scene};
 
 const LIT: SceneFacts = SceneFacts { lights: 1, ..RIGID };
-/// Nothing changed since a frame in the same light.
-const SAME_LIGHT: Changes = Changes { shadow_maps: false, lighting: false, irradiance: false, ..STILL };
 const LIGHT_PASSES: [Pass; 8] = [
     Pass::GatherEmission,
     Pass::DrawShadows,
@@ -33,7 +31,7 @@ fn radiance() -> Settings {
 #[test]
 fn light_that_nobody_looks_at_costs_nothing() {
     let lit = SceneFacts { emissive_voxels: 5, ..LIT };
-    let plan = plan(&lit, &FIRST, &Settings::default());
+    let plan = first(&lit, &Settings::default());
     for pass in LIGHT_PASSES {
         assert_eq!(reason(&plan, pass), (State::Skip, "light is not looked at"));
     }
@@ -41,7 +39,7 @@ fn light_that_nobody_looks_at_costs_nothing() {
 
 #[test]
 fn no_light_and_no_emission_leave_the_voxels_dark_without_any_pass() {
-    let plan = plan(&RIGID, &FIRST, &radiance());
+    let plan = first(&RIGID, &radiance());
     for pass in LIGHT_PASSES {
         assert_eq!(reason(&plan, pass), (State::Skip, "no light and no emission"));
     }
@@ -51,7 +49,7 @@ fn no_light_and_no_emission_leave_the_voxels_dark_without_any_pass() {
 #[test]
 fn each_kind_of_light_calls_for_its_own_passes() {
     let of = |scene: &SceneFacts, settings: &Settings| {
-        let plan = plan(scene, &FIRST, settings);
+        let plan = first(scene, settings);
         LIGHT_PASSES.into_iter().filter(|&pass| plan.runs(pass)).collect::<Vec<_>>()
     };
     use Pass::{
@@ -75,38 +73,37 @@ fn shadow_maps_are_drawn_only_where_they_are_read() {
     let mut settings = radiance();
     for (shadows, why) in [(Shadows::March, "shadows are marched"), (Shadows::Off, "shadows are off")] {
         settings.lighting.shadows = shadows;
-        assert_eq!(reason(&plan(&LIT, &FIRST, &settings), Pass::DrawShadows), (State::Skip, why));
+        assert_eq!(reason(&first(&LIT, &settings), Pass::DrawShadows), (State::Skip, why));
     }
     settings.look.view = View::ShadowMap;
-    assert_eq!(running(&plan(&LIT, &FIRST, &settings)), [Pass::DrawShadows, Pass::ShowShadowMap], "no octree");
+    assert_eq!(running(&first(&LIT, &settings)), [Pass::DrawShadows, Pass::ShowShadowMap], "no octree");
     let bare = SceneFacts { triangles: 0, ..LIT };
-    assert!(plan(&bare, &FIRST, &settings).is_idle());
+    assert!(first(&bare, &settings).is_idle());
 }
 
 #[test]
 fn an_edited_light_is_injected_and_averaged_alone_and_a_moved_one_mapped_too() {
     let settings = radiance();
-    let edited = Changes { lighting: true, ..SAME_LIGHT };
+    let edited = |asked: &mut Asked| asked.contents.lights = other();
     let ran = [Pass::Illuminate, Pass::InjectLight, Pass::AverageLight, Pass::MarchLight];
-    assert_eq!(running(&plan(&LIT, &edited, &settings)), ran);
-    let moved = Changes { shadow_maps: true, ..edited };
-    assert!(plan(&LIT, &moved, &settings).runs(Pass::DrawShadows));
-    assert!(plan(&LIT, &SAME_LIGHT, &settings).is_idle(), "all still");
-    let camera = Changes { view: true, ..SAME_LIGHT };
-    assert_eq!(running(&plan(&LIT, &camera, &settings)), [Pass::MarchLight]);
+    assert_eq!(running(&changed(&LIT, &settings, edited)), ran);
+    let moved = |asked: &mut Asked| (asked.contents.lights, asked.contents.shadow_maps) = (other(), other());
+    assert!(changed(&LIT, &settings, moved).runs(Pass::DrawShadows));
+    assert!(changed(&LIT, &settings, |_| {}).is_idle(), "all still");
+    assert_eq!(running(&changed(&LIT, &settings, |asked| asked.contents.camera = other())), [Pass::MarchLight]);
 }
 
 #[test]
 fn pointers_are_linked_where_they_are_followed_or_shown() {
     let mut settings = Settings::default();
-    assert_eq!(reason(&plan(&RIGID, &FIRST, &settings), Pass::LinkNodes).0, State::Skip);
+    assert_eq!(reason(&first(&RIGID, &settings), Pass::LinkNodes).0, State::Skip);
     settings.look.pointers = true;
-    assert!(plan(&RIGID, &FIRST, &settings).runs(Pass::LinkNodes));
+    assert!(first(&RIGID, &settings).runs(Pass::LinkNodes));
     settings.look.pointers = false;
     settings.look.view = View::Slice;
-    assert!(!plan(&RIGID, &FIRST, &settings).runs(Pass::LinkNodes), "ranks need none");
+    assert!(!first(&RIGID, &settings).runs(Pass::LinkNodes), "ranks need none");
     settings.look.slice.lookup = Lookup::NodePointers;
-    assert!(plan(&RIGID, &FIRST, &settings).runs(Pass::LinkNodes));
+    assert!(first(&RIGID, &settings).runs(Pass::LinkNodes));
 }
 
 #[test]
@@ -114,7 +111,7 @@ fn a_slice_of_occupancy_needs_the_store_but_no_light() {
     let mut settings = Settings::default();
     settings.look.view = View::Slice;
     settings.look.slice.value = SliceValue::Occupancy;
-    let plan = plan(&RIGID, &FIRST, &settings);
+    let plan = first(&RIGID, &settings);
     assert!(plan.runs(Pass::InjectLight) && plan.runs(Pass::AverageLight) && plan.runs(Pass::SliceOctree));
     assert_eq!(reason(&plan, Pass::Illuminate), (State::Skip, "only opacity is looked at"));
 }

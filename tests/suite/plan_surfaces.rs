@@ -1,23 +1,13 @@
 //! The plan's rules of lit surfaces, one by one: only what the picture calls for.
 
-use octolume::plan::{Changes, FramePlan, Pass, SceneFacts, State, plan};
+use octolume::plan::{Asked, FramePlan, Pass, SceneFacts, State};
 use octolume::settings::lighting::Shadows;
 use octolume::settings::{Lookup, Settings, SurfaceView, View};
 
-use crate::plan::{FIRST, RIGID, STILL, reason, running};
+use crate::plan::{RIGID, changed, first, other, reason, running};
 
 const SUN: SceneFacts = SceneFacts { lights: 1, ..RIGID };
 const GLOSSY: SceneFacts = SceneFacts { glossy: true, ..SUN };
-/// Nothing changed since a frame that showed the same surfaces in the same light.
-const SAME: Changes = Changes {
-    shadow_maps: false,
-    lighting: false,
-    surfaces: false,
-    direct: false,
-    diffuse: false,
-    specular: false,
-    ..STILL
-};
 const CONES: [Pass; 6] = [
     Pass::TraceDiffuse,
     Pass::BlurDiffuse,
@@ -41,7 +31,7 @@ fn builds_octree(plan: &FramePlan) -> bool {
 
 #[test]
 fn another_view_draws_no_surface() {
-    let plan = plan(&GLOSSY, &FIRST, &Settings::default());
+    let plan = first(&GLOSSY, &Settings::default());
     for pass in [Pass::DrawSurfaces, Pass::EmitSurfaces, Pass::LightSurfaces, Pass::LightByMarching]
         .into_iter()
         .chain(CONES)
@@ -53,7 +43,7 @@ fn another_view_draws_no_surface() {
 
 #[test]
 fn without_light_nothing_is_traced_and_no_octree_built() {
-    let plan = plan(&SceneFacts { glossy: true, ..RIGID }, &FIRST, &showing(SurfaceView::Final));
+    let plan = first(&SceneFacts { glossy: true, ..RIGID }, &showing(SurfaceView::Final));
     assert_eq!(reason(&plan, Pass::TraceDiffuse), (State::Skip, "no light and no emission"));
     assert_eq!(reason(&plan, Pass::TraceSpecular), (State::Skip, "no light and no emission"));
     assert_eq!(reason(&plan, Pass::MarkLeaves), (State::Skip, "no cone and no shadow asks the octree"));
@@ -63,7 +53,7 @@ fn without_light_nothing_is_traced_and_no_octree_built() {
 #[test]
 fn a_sun_on_matte_surfaces_calls_for_diffuse_cones_alone() {
     let of = |scene: &SceneFacts| {
-        let plan = plan(scene, &FIRST, &showing(SurfaceView::Final));
+        let plan = first(scene, &showing(SurfaceView::Final));
         CONES.into_iter().filter(|pass| plan.runs(*pass)).collect::<Vec<_>>()
     };
     assert_eq!(of(&SUN), [Pass::TraceDiffuse, Pass::BlurDiffuse, Pass::UpsampleDiffuse]);
@@ -71,7 +61,7 @@ fn a_sun_on_matte_surfaces_calls_for_diffuse_cones_alone() {
         of(&GLOSSY),
         [Pass::TraceDiffuse, Pass::BlurDiffuse, Pass::UpsampleDiffuse, Pass::ListGlossyTiles, Pass::TraceSpecular]
     );
-    let matte = plan(&SUN, &FIRST, &showing(SurfaceView::Specular));
+    let matte = first(&SUN, &showing(SurfaceView::Specular));
     assert_eq!(reason(&matte, Pass::TraceSpecular), (State::Skip, "no glossy surface in the scene"));
 }
 
@@ -80,7 +70,7 @@ fn cones_that_are_off_are_not_traced() {
     let mut settings = showing(SurfaceView::Final);
     settings.cone_tracing.diffuse = false;
     settings.cone_tracing.specular = false;
-    let dark = plan(&GLOSSY, &FIRST, &settings);
+    let dark = first(&GLOSSY, &settings);
     assert_eq!(reason(&dark, Pass::TraceDiffuse), (State::Skip, "diffuse cones are off"));
     assert_eq!(reason(&dark, Pass::TraceSpecular), (State::Skip, "the specular cone is off"));
     assert!(CONES.into_iter().all(|pass| !dark.runs(pass)) && !builds_octree(&dark));
@@ -93,13 +83,13 @@ fn occlusion_alone_reads_opacity_and_no_light() {
     settings.cone_tracing.diffuse = false;
     settings.cone_tracing.specular = false;
     settings.cone_tracing.ambient_occlusion = true;
-    assert!(!plan(&SUN, &FIRST, &settings).runs(Pass::TraceDiffuse), "there is no sky to occlude");
+    assert!(!first(&SUN, &settings).runs(Pass::TraceDiffuse), "there is no sky to occlude");
     settings.lighting.sky_nits = [1.0; 3];
-    let guessed = plan(&SUN, &FIRST, &settings);
+    let guessed = first(&SUN, &settings);
     assert!(guessed.runs(Pass::TraceDiffuse) && guessed.runs(Pass::AverageLight));
     assert_eq!(reason(&guessed, Pass::Illuminate), (State::Skip, "only opacity is looked at"));
     assert_eq!(reason(&guessed, Pass::GatherSky), (State::Skip, "only opacity is looked at"));
-    let shown = plan(&SUN, &FIRST, &showing(SurfaceView::Ao));
+    let shown = first(&SUN, &showing(SurfaceView::Ao));
     assert!(shown.runs(Pass::TraceDiffuse) && !shown.runs(Pass::LightSurfaces) && !shown.runs(Pass::DrawShadows));
     assert_eq!(reason(&shown, Pass::MeasureExposure), (State::Skip, "no light is shown"));
 }
@@ -117,7 +107,7 @@ fn each_part_calls_for_what_it_shows() {
         (SurfaceView::Albedo, &[DrawSurfaces]),
         (SurfaceView::Depth, &[DrawSurfaces]),
     ] {
-        let plan = plan(&GLOSSY, &FIRST, &showing(surface));
+        let plan = first(&GLOSSY, &showing(surface));
         let ran =
             [DrawSurfaces, LightSurfaces, TraceDiffuse, TraceSpecular].into_iter().filter(|pass| plan.runs(*pass));
         assert_eq!(ran.collect::<Vec<_>>(), expected, "{surface:?}");
@@ -127,7 +117,7 @@ fn each_part_calls_for_what_it_shows() {
 
 #[test]
 fn a_moved_camera_draws_and_traces_again_and_lights_no_voxel() {
-    let changed = Changes { view: true, surfaces: true, ..SAME };
+    let moved = changed(&GLOSSY, &showing(SurfaceView::Final), |asked| asked.contents.camera = other());
     let expected = [
         &[
             Pass::DrawSurfaces,
@@ -140,14 +130,14 @@ fn a_moved_camera_draws_and_traces_again_and_lights_no_voxel() {
         &[Pass::ListGlossyTiles, Pass::TraceSpecular][..],
         &SHOWN,
     ];
-    assert_eq!(running(&plan(&GLOSSY, &changed, &showing(SurfaceView::Final))), expected.concat());
-    assert!(plan(&GLOSSY, &SAME, &showing(SurfaceView::Final)).is_idle(), "all still");
+    assert_eq!(running(&moved), expected.concat());
+    assert!(changed(&GLOSSY, &showing(SurfaceView::Final), |_| {}).is_idle(), "all still");
 }
 
 #[test]
 fn a_changed_light_draws_no_surface() {
-    let changed = Changes { lighting: true, direct: true, ..SAME };
-    let plan = plan(&SUN, &changed, &showing(SurfaceView::Final));
+    let edited = |asked: &mut Asked| asked.contents.lights = other();
+    let plan = changed(&SUN, &showing(SurfaceView::Final), edited);
     assert_eq!(reason(&plan, Pass::DrawSurfaces), (State::Reuse, "camera and objects unmoved"));
     let expected = [
         &[Pass::Illuminate, Pass::InjectLight, Pass::AverageLight, Pass::EmitSurfaces, Pass::LightSurfaces][..],
@@ -161,37 +151,37 @@ fn a_changed_light_draws_no_surface() {
 fn pixels_that_share_no_cones_need_no_filter() {
     let mut settings = showing(SurfaceView::Final);
     settings.cone_tracing.half_resolution = false;
-    let shared = plan(&GLOSSY, &FIRST, &settings);
+    let shared = first(&GLOSSY, &settings);
     assert!(shared.runs(Pass::BlurDiffuse));
     assert_eq!(reason(&shared, Pass::UpsampleDiffuse), (State::Skip, "every pixel sends out cones"));
     settings.cone_tracing.pattern_px = 1;
-    let whole = plan(&GLOSSY, &FIRST, &settings);
+    let whole = first(&GLOSSY, &settings);
     assert_eq!(reason(&whole, Pass::BlurDiffuse), (State::Skip, "every pixel has all its cones"));
     assert_eq!(reason(&whole, Pass::UpsampleSpecular), (State::Skip, "every pixel sends out its cone"));
     settings.cone_tracing.indirect_px = Some([1280, 720]);
-    assert!(!plan(&GLOSSY, &FIRST, &settings).runs(Pass::UpsampleDiffuse), "the picture is no larger");
+    assert!(!first(&GLOSSY, &settings).runs(Pass::UpsampleDiffuse), "the picture is no larger");
     let large = SceneFacts { picture_px: [1920, 1080], ..GLOSSY };
-    let paper = plan(&large, &FIRST, &settings);
+    let paper = first(&large, &settings);
     assert!(paper.runs(Pass::UpsampleDiffuse) && paper.runs(Pass::UpsampleSpecular));
 }
 
 #[test]
 fn marched_shadows_and_pointers_ask_the_octree() {
     let mut settings = showing(SurfaceView::Direct);
-    assert!(!builds_octree(&plan(&SUN, &FIRST, &settings)));
+    assert!(!builds_octree(&first(&SUN, &settings)));
     settings.lighting.shadows = Shadows::March;
-    let marched = plan(&SUN, &FIRST, &settings);
+    let marched = first(&SUN, &settings);
     assert!(builds_octree(&marched) && marched.runs(Pass::LightByMarching));
     assert!(!marched.runs(Pass::DrawShadows) && !marched.runs(Pass::AverageLight));
     settings.look.surface = SurfaceView::Diffuse;
     settings.cone_tracing.lookup = Lookup::BlockPointers;
-    assert!(plan(&SUN, &FIRST, &settings).runs(Pass::LinkNodes));
+    assert!(first(&SUN, &settings).runs(Pass::LinkNodes));
 }
 
 #[test]
 fn a_set_exposure_is_not_measured() {
     let mut settings = showing(SurfaceView::Final);
     settings.look.exposure_stops = Some(-3.0);
-    let plan = plan(&SUN, &FIRST, &settings);
+    let plan = first(&SUN, &settings);
     assert_eq!(reason(&plan, Pass::MeasureExposure), (State::Skip, "the exposure is set"));
 }

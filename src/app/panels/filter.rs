@@ -12,6 +12,8 @@ use crate::settings::{Filter, Settings};
 type CostRow = (&'static str, &'static str, fn(&FilterReport) -> Option<String>);
 
 const NAME_WIDTH: f32 = 72.0;
+/// In place of what is measured, but not yet for the pose on screen.
+const ON_ITS_WAY: &str = "on its way";
 
 /// `report`: of the pose on screen; the filter not shown is in it where both are measured.
 pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> Vec<Command> {
@@ -20,9 +22,13 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
     ui.spacing_mut().item_spacing.y = 2.0;
     commands.extend(switch_ui(ui, settings));
     ui.add_space(3.0);
-    let rows: [CostRow; 7] = [
-        ("GPU time", "Kernel milliseconds of a full rebuild with this filter.", |cost| {
-            Some(format!("{} ms", milliseconds(cost.kernel_ms)))
+    let rows: [CostRow; 8] = [
+        ("GPU time", "Kernel milliseconds of a full rebuild with this filter: the median of the last ones.", |cost| {
+            Some(format!("{} ms", milliseconds(cost.times.spread.median_ms)))
+        }),
+        ("Spread", "From 5 % to 95 % of these times, and how many they are.", |cost| {
+            let [low, high] = [cost.times.spread.p5_ms, cost.times.spread.p95_ms].map(milliseconds);
+            Some(format!("{low}–{high}, {}×", cost.times.samples))
         }),
         ("Voxels", "Moved voxels inside the grid.", |cost| Some(grouped(cost.voxels))),
         ("Leaves", "Occupied leaf cells.", |cost| Some(grouped(cost.leaves))),
@@ -34,7 +40,9 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
         }),
     ];
     for (name, tip, value) in rows {
-        let values = costs.map(|cost| cost.as_ref().and_then(value));
+        let is_compared = matches!(name, "Holes" | "Spill");
+        let awaited = (is_compared && settings.look.accuracy).then(|| ON_ITS_WAY.to_owned());
+        let values = costs.map(|cost| cost.as_ref().and_then(value).or_else(|| awaited.clone()));
         row_ui(ui, name, tip, values, settings.discretization.filter, row_color(name));
     }
     let exact_cells = report.and_then(|report| report.exact_cells);
@@ -43,7 +51,9 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
         Some(exact) => format!("Holes as a share of the {} exact cells.", grouped(exact)),
         None => "Holes as a share of the exact cells; known once measured.".to_owned(),
     };
-    row_ui(ui, "Missed", &tip, costs.map(share), settings.discretization.filter, None);
+    let awaited = settings.look.accuracy.then(|| ON_ITS_WAY.to_owned());
+    let missed = costs.map(|cost| share(cost).or_else(|| awaited.clone()));
+    row_ui(ui, "Missed", &tip, missed, settings.discretization.filter, None);
     commands.extend(measure_ui(ui, settings));
     commands
 }

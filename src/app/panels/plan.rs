@@ -4,18 +4,26 @@ use egui::{Color32, Ui};
 
 use super::table::{self, Cell};
 use crate::app::theme;
-use crate::plan::{FramePlan, Pass, State};
+use crate::plan::{FramePlan, Pass, Row, State};
 
 pub fn ui(ui: &mut Ui, plan: &FramePlan) {
     let rows = plan.rows.iter().map(|row| {
         let (state, color) = state(row.state);
         vec![
-            Cell::new(format!("{:?}", row.pass)).color(pass_color(row.state)).tip(kernels(row.pass)),
+            Cell::new(name(row)).color(pass_color(row.state)).tip(kernels(row.pass)),
             Cell::new(state).color(color),
             Cell::new(row.reason).color(theme::WEAK).tip(row.reason),
         ]
     });
     table::show(ui, "plan", &[("pass", 0.0), ("state", 40.0), ("reason", 150.0)], rows.collect());
+}
+
+/// Of methods beside the one that is shown, their number too.
+fn name(row: &Row) -> String {
+    match row.method {
+        0 => format!("{:?}", row.pass),
+        method => format!("{}: {:?}", method + 1, row.pass),
+    }
 }
 
 fn state(state: State) -> (&'static str, Color32) {

@@ -10,13 +10,14 @@ use crate::app::commands::Command;
 use crate::app::reference::{Comparison, MeasuredPart, Order, PARTS, Reference, Traced};
 use crate::app::scale_ticks::short;
 use crate::app::theme;
-use crate::gpu::KernelTiming;
+use crate::engine::PassTiming;
+use crate::plan::Part;
 use crate::settings::SurfaceView;
 
 pub struct ReferencePanel<'a> {
     pub reference: &'a Reference,
     /// Of the picture that is shown.
-    pub timings: &'a [KernelTiming],
+    pub timings: &'a [PassTiming],
     pub is_surfaces: bool,
     pub has_scene: bool,
 }
@@ -127,13 +128,17 @@ fn name(part: SurfaceView) -> &'static str {
     }
 }
 
-fn times_ui(ui: &mut Ui, timings: &[KernelTiming], traced: &Traced) {
-    let ms = |of: &[&str]| -> f64 {
-        let is_of = |timing: &&KernelTiming| of.iter().any(|stage| timing.kernel.starts_with(stage));
-        timings.iter().filter(is_of).map(|timing| timing.ms).sum()
+/// What cones trace, and what else the picture is made of.
+const CONES: [Part; 3] = [Part::DiffuseLight, Part::GlossyTiles, Part::SpecularLight];
+const OTHERS: [Part; 5] = [Part::SurfaceImage, Part::DirectLight, Part::ComposedLight, Part::Exposure, Part::Picture];
+
+fn times_ui(ui: &mut Ui, timings: &[PassTiming], traced: &Traced) {
+    let ms = |parts: &[Part]| -> f64 {
+        let is_of = |timing: &&PassTiming| timing.pass.parts().iter().any(|part| parts.contains(part));
+        timings.iter().filter(is_of).map(|timing| timing.kernel.ms).sum()
     };
-    let cones = milliseconds(ms(&["cones/"]));
-    let picture = milliseconds(ms(&["cones/", "surface/", "view/show_surfaces"]));
+    let (of_cones, of_others) = (ms(&CONES), ms(&OTHERS));
+    let (cones, picture) = (milliseconds(of_cones), milliseconds(of_cones + of_others));
     let text = format!("Cones {cones} ms, all of the picture {picture} ms; paths {} s", short(traced.secs));
     ui.label(RichText::new(text).color(theme::WEAK)).on_hover_text(
         "Time on the GPU of the picture that is shown, octree and its light not counted; paths on the CPU.",

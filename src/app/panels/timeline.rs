@@ -12,12 +12,11 @@ use crate::settings::MotionSettings;
 
 const REST_POSE: &str = "Rest pose";
 
-/// `clip`: the one that `motion` names.
+/// `clip`: the one that `motion` names; `shown_secs`: the time that the picture on screen shows.
 pub fn ui(
     ui: &mut Ui,
-    clips: &[Clip],
-    clip: Option<&Clip>,
-    motion: &MotionSettings,
+    (clips, clip): (&[Clip], Option<&Clip>),
+    (motion, shown_secs): (&MotionSettings, Option<f64>),
     playback: &Playback,
 ) -> Vec<Command> {
     let mut commands = Vec::new();
@@ -25,7 +24,7 @@ pub fn ui(
         commands.extend(clip_ui(ui, clips, clip, motion));
         let playable = clip.is_some_and(|clip| clip.duration_secs > 0.0);
         ui.add_enabled_ui(playable, |ui| commands.extend(transport_ui(ui, playback)));
-        turn_and_scrub_ui(ui, clip, motion, playable, &mut commands);
+        turn_and_scrub_ui(ui, clip, (motion, shown_secs), playable, &mut commands);
     });
     commands
 }
@@ -88,13 +87,14 @@ fn transport_ui(ui: &mut Ui, playback: &Playback) -> Vec<Command> {
 fn turn_and_scrub_ui(
     ui: &mut Ui,
     clip: Option<&Clip>,
-    motion: &MotionSettings,
+    (motion, shown_secs): (&MotionSettings, Option<f64>),
     playable: bool,
     commands: &mut Vec<Command>,
 ) {
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
         commands.extend(turn_ui(ui, motion));
         ui.separator();
+        picture_time_ui(ui, shown_secs.filter(|_| playable), motion.time_secs);
         ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
             let duration = clip.map_or(0.0, |clip| clip.duration_secs);
             let mut time = motion.time_secs.min(duration);
@@ -112,6 +112,16 @@ fn turn_and_scrub_ui(
             }
         });
     });
+}
+
+/// The picture follows the timeline: how far it has come.
+fn picture_time_ui(ui: &mut Ui, shown_secs: Option<f64>, wanted_secs: f64) {
+    let Some(shown_secs) = shown_secs else { return };
+    let color = if shown_secs == wanted_secs { theme::WEAK } else { theme::WARNING };
+    // As wide for every time, so that nothing beside it moves.
+    let text = egui::RichText::new(format!("shown {shown_secs:>7.3} s")).color(color).monospace();
+    let tip = "The time that the picture on screen shows; the timeline may be ahead of it.";
+    ui.label(text).on_hover_text(tip);
 }
 
 fn turn_ui(ui: &mut Ui, motion: &MotionSettings) -> Option<Command> {

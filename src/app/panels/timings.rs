@@ -5,14 +5,13 @@ use egui_plot::{Bar, BarChart, GridMark, Plot};
 
 use super::table::{self, Cell};
 use super::{bytes, grouped, milliseconds, nothing};
-use crate::app::history::{FrameHistory, LENGTH, by_kernel, has_run, total_ms};
+use crate::app::history::{FrameHistory, KernelSum, LENGTH, by_kernel, total_ms};
 use crate::app::latency::Latency;
 use crate::app::theme;
-use crate::gpu::KernelTiming;
-use crate::plan::FramePlan;
+use crate::engine::PassTiming;
 
-/// `timings`: of the results on screen, which frames before the last may have made.
-pub fn ui(ui: &mut Ui, (timings, plan): (&[KernelTiming], &FramePlan), history: &FrameHistory, latency: &Latency) {
+/// `timings`: of the results on screen, which frames before `last_frame` may have made.
+pub fn ui(ui: &mut Ui, (timings, last_frame): (&[PassTiming], u64), history: &FrameHistory, latency: &Latency) {
     latency_ui(ui, latency);
     if timings.is_empty() {
         nothing(ui, "No frame has run on the GPU yet.");
@@ -26,7 +25,7 @@ pub fn ui(ui: &mut Ui, (timings, plan): (&[KernelTiming], &FramePlan), history: 
         Cell::new(""),
         Cell::new(""),
     ]];
-    rows.extend(by_kernel(timings).iter().map(|kernel| row(kernel, total, has_run(kernel, plan))));
+    rows.extend(by_kernel(timings).iter().map(|kernel| row(kernel, total, kernel.frame == last_frame)));
     table::show(ui, "timings", &[("kernel", 0.0), ("ms", 44.0), ("share", 52.0), ("GB/s", 40.0)], rows);
 }
 
@@ -70,7 +69,7 @@ fn history_ui(ui: &mut Ui, history: &FrameHistory) {
     response.on_hover_text("GPU milliseconds of the last frames that ran.");
 }
 
-fn row(kernel: &KernelTiming, total_ms: f64, has_run: bool) -> Vec<Cell> {
+fn row(KernelSum { timing: kernel, .. }: &KernelSum, total_ms: f64, has_run: bool) -> Vec<Cell> {
     let share = if total_ms > 0.0 { kernel.ms / total_ms } else { 0.0 };
     let rate = kernel.bytes_moved as f64 / (kernel.ms * 1e6);
     let tip =

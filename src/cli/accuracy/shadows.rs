@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::{Case, Table};
 use crate::cli::output;
 use crate::cli::session::{NO_PICTURE, Session};
-use crate::cli::statistics::Spread;
+use octolume::spread::Spread;
 
 /// One light of one pose by one method.
 #[derive(Serialize)]
@@ -153,7 +153,7 @@ fn measure(session: &mut Session, settings: &Settings, runs: u32) -> anyhow::Res
     for run in 0..=runs {
         session.engine.invalidate_light();
         session.run(settings, NO_PICTURE)?;
-        let timings = session.engine.timings();
+        let timings = session.kernel_times();
         let ms: f64 = timings.iter().filter(|timing| counts(&timing.kernel)).map(|timing| timing.ms).sum();
         times_ms.extend((run > 0).then_some(ms));
     }

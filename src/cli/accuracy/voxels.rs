@@ -11,7 +11,7 @@ use octolume::settings::{Filter, Settings, View};
 use super::{Case, Table};
 use crate::cli::output;
 use crate::cli::session::{NO_PICTURE, Session};
-use crate::cli::statistics::Spread;
+use octolume::spread::Spread;
 
 /// Size of the ghost pictures.
 const SIZE_PX: [u32; 2] = [960, 540];

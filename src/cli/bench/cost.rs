@@ -3,7 +3,7 @@
 use octolume::gpu::KernelTiming;
 use serde::Serialize;
 
-use crate::cli::statistics::Spread;
+use octolume::spread::Spread;
 
 #[derive(Serialize)]
 pub struct Cost {

@@ -127,7 +127,7 @@ fn measure_variant(
     for run in 0..warmup + runs {
         session.engine.invalidate_light();
         session.run(settings, NO_PICTURE)?;
-        let timings = session.engine.timings();
+        let timings = session.kernel_times();
         for &kernel in variant.kernels.iter().filter(|_| run >= warmup) {
             let of_kernel = |timing: &&KernelTiming| timing.kernel == kernel;
             samples.entry(kernel).or_default().add(timings.iter().filter(of_kernel));

@@ -25,8 +25,8 @@ use surfaces::SurfaceReport;
 
 use super::options::{Common, Moment};
 use super::session::Session;
-use super::statistics::Spread;
 use super::{Usage, output};
+use octolume::spread::Spread;
 
 /// As the window's picture, for the view kernel.
 const SIZE_PX: [u32; 2] = [1280, 720];
@@ -171,7 +171,7 @@ fn rebuild_once(session: &mut Session, settings: &Settings) -> anyhow::Result<(V
     let started = Instant::now();
     session.run(settings, SIZE_PX)?;
     let wall_ms = started.elapsed().as_secs_f64() * 1e3;
-    Ok((session.engine.timings(), wall_ms))
+    Ok((session.kernel_times(), wall_ms))
 }
 
 /// Adds the dispatches of one rebuild up, by kernel and over all that do not draw.

@@ -1,12 +1,12 @@
 //! Samples a second, by sampling and by the way to the nodes.
 
-use octolume::settings::{Lookup, Sampling, Settings};
+use octolume::settings::{Lookup, Sampling, Settings, View};
 use octolume::stages::sample::Sampler;
 use serde::Serialize;
 
 use super::cost::Samples;
-use crate::cli::session::Session;
-use crate::cli::statistics::Spread;
+use crate::cli::session::{NO_PICTURE, Session};
+use octolume::spread::Spread;
 
 /// Points that are sampled at once.
 const POINTS: usize = 1 << 20;
@@ -28,8 +28,8 @@ pub struct SamplingCost {
     bytes: u64,
 }
 
-/// In the light that is on screen; variants whose pointers are not made are left out.
-pub fn measure(session: &Session, settings: &Settings) -> anyhow::Result<Vec<SamplingCost>> {
+/// In the light of these settings; variants whose pointers do not fit are left out.
+pub fn measure(session: &mut Session, settings: &Settings) -> anyhow::Result<Vec<SamplingCost>> {
     let mut costs = Vec::new();
     let cells = session.engine.read_voxels()?.cells;
     for near_leaves in [true, false] {
@@ -39,6 +39,13 @@ pub fn measure(session: &Session, settings: &Settings) -> anyhow::Result<Vec<Sam
             for lookup in [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers] {
                 let sampler = Sampler { sampling, lookup, opacity: settings.lighting.opacity };
                 let mut samples = Samples::default();
+                // A slice that follows the pointers has them linked.
+                let mut following = settings.clone();
+                following.look.view = View::Slice;
+                following.look.slice.lookup = lookup;
+                if session.run(&following, NO_PICTURE).is_err() {
+                    continue;
+                }
                 for run in 0..=RUNS {
                     let Ok((_, timings)) = session.engine.sample(&sampler, [0.0, 1.0, 0.0], &points) else { break };
                     if run > 0 {

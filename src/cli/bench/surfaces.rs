@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::SIZE_PX;
 use crate::cli::output;
 use crate::cli::session::Session;
-use crate::cli::statistics::Spread;
 use crate::cli::surface_times::{self, KernelMs, sum};
+use octolume::spread::Spread;
 
 /// Folders of the kernels behind the view.
 const KERNELS: [&str; 2] = ["surface/", "cones/"];

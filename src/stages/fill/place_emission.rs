@@ -1,7 +1,7 @@
 //! Emission of the sorted voxels, and which leaf blocks emit.
 
 use super::Filling;
-use crate::data::light::LightBuffers;
+use crate::data::light::EmissionBuffers;
 use crate::data::octree::{OctreeParams, OctreeSizes};
 use crate::gpu::{Counted, Gpu, GpuBuffer, GpuError, Recorder};
 use crate::stages::transform::MovingVoxels;
@@ -21,7 +21,7 @@ pub struct Emission {
 impl Emission {
     pub fn new(
         gpu: &Gpu,
-        buffers: &mut LightBuffers,
+        buffers: &mut EmissionBuffers,
         octree: &OctreeSizes,
         (cache_emission, voxels): (GpuBuffer, u32),
     ) -> Result<Self, GpuError> {

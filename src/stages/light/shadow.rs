@@ -70,6 +70,25 @@ impl ShadowParams {
     }
 }
 
+impl ShadowParams {
+    /// Distances along the map's axis that a grid of `cells`³ cells has, in cells: from the light on where it is in
+    /// a place.
+    pub fn range_cells(&self, cells: u32) -> [f64; 2] {
+        let far = f64::from(cells);
+        let corners = (0..8).map(|i| [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { far } else { 0.0 }));
+        let frames = &self.frames[..self.count as usize];
+        let distances = corners.flat_map(|corner| {
+            frames.iter().map(move |frame| {
+                let [x, y, z, w] = frame.distance.map(f64::from);
+                x * corner[0] + y * corner[1] + z * corner[2] + w
+            })
+        });
+        let (least, most) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
+        let is_sun = frames.len() == 1 && frames[0].clip_from_grid[0][3] == 0.0;
+        [if is_sun { least } else { 0.0 }, most]
+    }
+}
+
 /// Two axes across a direction.
 fn across(direction: DVec3) -> (DVec3, DVec3) {
     let right = direction.any_orthonormal_vector();

@@ -101,7 +101,11 @@ impl MeshScene {
         }
         let start = Instant::now();
         while let Some(next) = self.waiting.pop() {
-            self.upload_one(gpu, next)?;
+            if let Err(error) = self.upload_one(gpu, &next) {
+                // It is still missing.
+                self.waiting.push(next);
+                return Err(error);
+            }
             if start.elapsed() >= budget {
                 break;
             }
@@ -135,40 +139,45 @@ impl MeshScene {
         self.textures.get(&(slot?.texture, encoding))
     }
 
-    fn upload_one(&mut self, gpu: &Gpu, next: Waiting) -> Result<(), GpuError> {
+    fn upload_one(&mut self, gpu: &Gpu, next: &Waiting) -> Result<(), GpuError> {
         let uploader = self.uploader.get_or_insert_with(|| TextureUploader::new(gpu));
-        match next {
+        match *next {
             Waiting::White => self.white = Some(uploader.white(gpu)?),
             Waiting::Texture(index, encoding) => {
                 let texture = uploader.upload(gpu, &self.scene.textures[index], encoding)?;
                 self.textures.insert((index, encoding), texture);
             }
-            Waiting::Batch { primitives, skinned } => self.upload_batch(gpu, &primitives, skinned)?,
+            Waiting::Batch { ref primitives, skinned } => self.upload_batch(gpu, primitives, skinned)?,
         }
         Ok(())
     }
 
     fn upload_batch(&mut self, gpu: &Gpu, primitives: &[(usize, usize)], skinned: bool) -> Result<(), GpuError> {
         let (mut vertices, mut indices, mut joints) = (Vec::new(), Vec::<u32>::new(), Vec::new());
+        let mut placed = Vec::new();
         for &(mesh, number) in primitives {
             let primitive = &self.scene.meshes[mesh].primitives[number];
-            self.places[mesh][number] = Some(Place {
+            let place = Place {
                 batch: self.batches.len(),
                 first_vertex: vertices.len() as u32,
                 first_index: indices.len() as u32,
                 index_count: 3 * primitive.triangles.len() as u32,
-            });
+            };
+            placed.push((mesh, number, place));
             vertices.extend((0..primitive.positions.len()).map(|vertex| mesh_vertex(primitive, vertex)));
             indices.extend(primitive.triangles.iter().flatten());
             if skinned {
                 joints.extend((0..primitive.positions.len()).map(|vertex| vertex_joints(primitive, vertex)));
             }
         }
-        self.batches.push(Batch {
+        let batch = Batch {
             vertices: gpu.upload("mesh vertices", &vertices)?,
             indices: gpu.upload("mesh indices", &indices)?,
             joints: skinned.then(|| gpu.upload("mesh joints", &joints)).transpose()?,
-        });
+        };
+        // Only what is there has a place.
+        self.batches.push(batch);
+        placed.into_iter().for_each(|(mesh, number, place)| self.places[mesh][number] = Some(place));
         Ok(())
     }
 }

@@ -4,17 +4,20 @@
 
 use bytemuck::Pod;
 
-use super::built_octree::OctreeBuffers;
+use super::Built;
 use super::inspect::NodeAddress;
 use crate::data::grid::{morton_cell, morton_key};
-use crate::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, NO_BLOCK, OctreeParams, Slot};
+use crate::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, NO_BLOCK, OctreeParams, Slot, TopologyBuffers};
 use crate::data::packing::{unpack_normal, unpack_position, unpack_rgba8};
 use crate::gpu::{Gpu, GpuError};
 
 pub struct NodeReader<'a> {
     pub gpu: &'a Gpu,
     pub octree: &'a OctreeParams,
-    pub buffers: &'a OctreeBuffers,
+    pub built: Built<'a>,
+    pub topology: &'a TopologyBuffers,
+    /// Of blocks.
+    pub neighbours: Slot,
 }
 
 /// What a node holds.
@@ -42,12 +45,12 @@ impl NodeReader<'_> {
     /// Rank of the block that holds the children of a node of `level`, over all levels.
     fn block_of(&self, level: u32, key: u32) -> Result<Option<u32>, GpuError> {
         let word = self.octree.levels[level as usize].blocks_word + (key >> 5);
-        let mask = self.word(&self.buffers.masks.blocks, "block masks", word)?;
+        let mask = self.word(&self.built.masks.buffers.blocks, "block masks", word)?;
         if mask >> (key & 31) & 1 == 0 {
             return Ok(None);
         }
         let below = mask & ((1 << (key & 31)) - 1);
-        Ok(Some(self.word(&self.buffers.masks.ranks, "block ranks", word)? + below.count_ones()))
+        Ok(Some(self.word(&self.built.masks.buffers.ranks, "block ranks", word)? + below.count_ones()))
     }
 
     /// `None` where no node is stored. The address is in the grid.
@@ -69,7 +72,7 @@ impl NodeReader<'_> {
     /// Where a node lies, as its block says.
     pub fn address_of(&self, level: u32, index: u32) -> Result<NodeAddress, GpuError> {
         let key = match self.place(level, index) {
-            Some((block, child)) => 8 * self.word(&self.buffers.topology.block_keys, "block keys", block)? + child,
+            Some((block, child)) => 8 * self.word(&self.topology.block_keys, "block keys", block)? + child,
             None => index - self.octree.levels[level as usize].first_node,
         };
         Ok(NodeAddress { level, cell: morton_cell(key) })
@@ -83,7 +86,7 @@ impl NodeReader<'_> {
         if child >> axis & 1 == 0 {
             return Ok(Some(first + 8 * block + (child | 1 << axis)));
         }
-        let ahead = self.word(&self.buffers.neighbours, "neighbour pointers", 3 * block + axis)?;
+        let ahead = self.word(&self.neighbours, "neighbour pointers", 3 * block + axis)?;
         Ok((ahead != NO_BLOCK).then(|| first + 8 * ahead + (child & !(1 << axis))))
     }
 
@@ -98,10 +101,10 @@ impl NodeReader<'_> {
     pub fn is_occupied(&self, address: NodeAddress) -> Result<bool, GpuError> {
         let key = morton_key(address.cell);
         let word = if address.level == self.octree.depth {
-            self.word(&self.buffers.masks.leaf_bits, "leaf bits", key >> 5)?
+            self.word(&self.built.masks.buffers.leaf_bits, "leaf bits", key >> 5)?
         } else {
             let first = self.octree.levels[address.level as usize].occupied_word;
-            self.word(&self.buffers.masks.occupied, "occupied masks", first + (key >> 5))?
+            self.word(&self.built.masks.buffers.occupied, "occupied masks", first + (key >> 5))?
         };
         Ok(word >> (key & 31) & 1 == 1)
     }
@@ -117,7 +120,7 @@ impl NodeReader<'_> {
             let key = index - levels[level as usize].first_node;
             return Ok(Some(levels[level as usize + 1].first_node + 8 * key));
         }
-        let child = self.word(&self.buffers.topology.first_child, "child pointers", index)?;
+        let child = self.word(&self.topology.first_child, "child pointers", index)?;
         Ok((child != 0).then_some(child))
     }
 
@@ -127,13 +130,14 @@ impl NodeReader<'_> {
         if address.level == octree.depth {
             let slot = self.leaf_slot(address, index)?;
             let [occupancy, albedo, normal]: [u32; 3] =
-                self.read(&self.buffers.payload.leaves, "leaves", slot.into())?;
+                self.read(&self.built.payload.buffers.leaves, "leaves", slot.into())?;
             let [r, g, b, _] = unpack_rgba8(albedo);
             let occupancy = f64::from(occupancy) / f64::from(FULL_WEIGHT);
             let normal = unpack_normal(normal).to_array();
             return Ok((octree.inner_node_count + slot, Payload { occupancy, albedo: [r, g, b], normal }));
         }
-        let [low, high, albedo, normal]: [u32; 4] = self.read(&self.buffers.payload.nodes, "nodes", index.into())?;
+        let [low, high, albedo, normal]: [u32; 4] =
+            self.read(&self.built.payload.buffers.nodes, "nodes", index.into())?;
         let sum = f64::from(high) * 2_f64.powi(32) + f64::from(low);
         let full = f64::from(FULL_WEIGHT) * 8_f64.powi((octree.depth - address.level) as i32);
         let albedo = unpack_position(albedo).map(|units| f64::from(units) / (255.0 * f64::from(ALBEDO_NODE_SCALE)));
@@ -145,8 +149,8 @@ impl NodeReader<'_> {
         let key = morton_key(address.cell);
         let first_leaf_block = self.octree.levels[self.octree.depth as usize - 1].first_block;
         let block = (index - self.octree.dense_node_count) / 8 - first_leaf_block;
-        let starts: [u32; 2] = self.read(&self.buffers.payload.block_starts, "block starts", block.into())?;
-        let mask = self.word(&self.buffers.masks.leaf_bits, "leaf bits", key >> 5)? >> (key & 24);
+        let starts: [u32; 2] = self.read(&self.built.payload.buffers.block_starts, "block starts", block.into())?;
+        let mask = self.word(&self.built.masks.buffers.leaf_bits, "leaf bits", key >> 5)? >> (key & 24);
         Ok(starts[1] + (mask & ((1 << (key & 7)) - 1)).count_ones())
     }
 }

@@ -1,9 +1,11 @@
 //! Samples the lit octree at given places, as cones and slices do.
 
-use super::{Engine, EngineError};
+use super::super::{Engine, EngineError};
+use super::missing;
 use crate::gpu::{Job, KernelTiming, Recorder};
+use crate::plan::Part;
+use crate::stages::sample::Sampler;
 use crate::stages::sample::sample_points::{self, PointParams};
-use crate::stages::sample::{SampledOctree, Sampler};
 
 impl Engine {
     /// Radiance times α, and α, at points of (position in cells, level; width in cells where the sampler
@@ -15,9 +17,9 @@ impl Engine {
         direction: [f32; 3],
         points: &[[f32; 4]],
     ) -> Result<(Vec<[f32; 4]>, Vec<KernelTiming>), EngineError> {
-        let light = self.light.buffers.light.made("light")?;
-        let octree =
-            SampledOctree::new(self.shown.octree()?, &light, sampler.lookup, self.shown.pointers(sampler.lookup))?;
+        let shown = self.shown.as_ref().ok_or_else(|| missing("light"))?;
+        let making = self.making(shown, Part::Light).ok_or_else(|| missing("light"))?;
+        let octree = self.parts.sampled(&making, sampler.lookup)?;
         let buffer = self.gpu.upload("sample points", points)?;
         let params = PointParams::new(direction);
         let mut frame = Recorder::default();

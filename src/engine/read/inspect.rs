@@ -2,13 +2,15 @@
 //! pointers followed (section 4.4). In: a pixel, or an address. Out: [`NodeFacts`]. Every answer is a
 //! handful of small reads that block: for a person who looks at one node, while nothing is drawn.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
+use super::super::{Engine, EngineError, Shown};
 use super::node_reader::{NodeReader, Payload};
-use super::{Engine, EngineError};
 use crate::data::light::LIGHT_BYTES;
-use crate::data::octree::PointerLayout;
 use crate::gpu::GpuError;
+use crate::plan::Part;
 use crate::settings::View;
 use crate::stages::view::camera::PixelRays;
 use crate::stages::view::shown_level;
@@ -82,27 +84,26 @@ impl Engine {
     /// light is stopped. `None` where nothing is, and while another picture is on its way. `pixel`: of
     /// the picture as it was requested, from its upper left corner. Blocks.
     pub fn node_at(&self, pixel: [u32; 2]) -> Result<Option<NodeAddress>, EngineError> {
-        let Some(wanted) = self.wanted.as_ref().filter(|_| self.is_at_rest()) else { return Ok(None) };
-        let (Some(picture), Some(prepared)) = (&self.picture, &self.prepared) else { return Ok(None) };
-        if picture.size_px() != wanted.size_px || wanted.settings.look.view == View::ShadowMap {
+        let Some(on_screen) = self.on_screen.as_ref().filter(|_| self.is_at_rest()) else { return Ok(None) };
+        let (request, picture) = (&on_screen.request, &on_screen.picture);
+        let (shot, look) = (&request.shot, &request.settings().look);
+        if look.view == View::ShadowMap {
             return Ok(None);
         }
         let Some(distance) = picture.read_distance(&self.gpu, pixel)? else { return Ok(None) };
-        let rays = PixelRays::new(&wanted.camera, &prepared.grid, wanted.size_px);
-        let level = shown_level(&wanted.settings.look, prepared.grid.depth);
-        Ok(cell_at(&rays, pixel, distance.into(), (level, prepared.grid.depth)))
+        let rays = PixelRays::new(&shot.camera, request.grid(), shot.size_px);
+        let depth = request.grid().depth;
+        Ok(cell_at(&rays, pixel, distance.into(), (shown_level(look, depth), depth)))
     }
 
     /// All that is stored of a node; `None` where no node is stored. Blocks.
     pub fn node_facts(&self, address: NodeAddress) -> Result<Option<NodeFacts>, EngineError> {
-        let octree = &self.shown.params;
-        if !self.is_at_rest() || !self.has_octree() || !address.is_in(octree.depth) {
+        let Some(reader) = self.node_reader().filter(|reader| address.is_in(reader.octree.depth)) else {
             return Ok(None);
-        }
-        let reader = NodeReader { gpu: &self.gpu, octree, buffers: &self.shown.buffers };
+        };
         let Some(index) = reader.index_of(address)? else { return Ok(None) };
         let level = address.level;
-        let has_pointers = level <= octree.dense_level || self.done.links.contains(&PointerLayout::Blocks);
+        let has_pointers = level <= reader.octree.dense_level || reader.neighbours.get().is_some();
         let node = stored(&reader, level, index)?;
         let corners = corners(&reader, level, node, has_pointers)?;
         let (light, payload) = match node.is_dummy {
@@ -128,14 +129,25 @@ impl Engine {
         }))
     }
 
-    /// Nothing is being built or drawn.
+    /// Nothing is being built or drawn, and what is shown is what was asked for last.
     fn is_at_rest(&self) -> bool {
-        self.running.is_none()
+        let is_shown = |shown: &Shown| self.wanted.as_ref().is_some_and(|wanted| Arc::ptr_eq(wanted, &shown.request));
+        self.frame.is_none() && self.shown.as_ref().is_some_and(is_shown)
+    }
+
+    fn node_reader(&self) -> Option<NodeReader<'_>> {
+        let keys = self.shown.as_ref().filter(|_| self.is_at_rest())?.keys.first()?;
+        let built = self.shown_octree()?;
+        let topology = &self.parts.topology.finished(keys.get(Part::Topology)?)?.buffers;
+        let links = keys.get(Part::BlockLinks).and_then(|key| self.parts.block_links.finished(key));
+        let neighbours = links.map(|links| links.neighbours.clone()).unwrap_or_default();
+        Some(NodeReader { gpu: &self.gpu, octree: &built.counts.params, built, topology, neighbours })
     }
 
     /// Mean radiance of an entry of the stored light.
     fn radiance_of(&self, entry: u32) -> Result<Option<[f64; 3]>, GpuError> {
-        let Some(light) = self.light.buffers.light.get().filter(|_| self.done.light.is_some()) else { return Ok(None) };
+        let key = self.shown.as_ref().and_then(|shown| shown.keys.first()?.get(Part::Light));
+        let Some(light) = key.and_then(|key| self.parts.light.finished(key)?.light.get()) else { return Ok(None) };
         let first = LIGHT_BYTES * u64::from(entry);
         let stored: Vec<f32> = self.gpu.read(light, first..first + LIGHT_BYTES)?;
         let opacity = f64::from(stored[3]);

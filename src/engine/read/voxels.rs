@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::{Engine, EngineError};
+use super::super::{Engine, EngineError};
 use crate::data::grid::morton_cell;
-use crate::data::octree::FULL_WEIGHT;
+use crate::data::octree::{FULL_WEIGHT, Slot};
 use crate::data::packing::{unpack_normal, unpack_rgba8};
 use crate::gpu::GpuError;
 
@@ -27,13 +27,11 @@ impl Engine {
     /// The leaves of the octree that is shown. Blocks until they are here.
     pub fn read_voxels(&self) -> Result<WorldVoxels, EngineError> {
         let mut voxels = WorldVoxels::default();
-        if !self.has_octree() {
-            return Ok(voxels);
-        }
-        let octree = &self.shown.params;
-        let b = &self.shown.buffers;
-        let leaf_bits: Vec<u32> = self.read_all(&b.masks.leaf_bits, "leaf bits", (1 << (3 * octree.depth)) / 32)?;
-        let leaves: Vec<u32> = self.read_all(&b.payload.leaves, "leaves", 3 * u64::from(octree.leaf_count))?;
+        let Some(built) = self.shown_octree() else { return Ok(voxels) };
+        let octree = &built.counts.params;
+        let (bits, leaves) = (&built.masks.buffers.leaf_bits, &built.payload.buffers.leaves);
+        let leaf_bits: Vec<u32> = self.read_all(bits, "leaf bits", (1 << (3 * octree.depth)) / 32)?;
+        let leaves: Vec<u32> = self.read_all(leaves, "leaves", 3 * u64::from(octree.leaf_count))?;
         // Leaves are stored in key order, so the set bits name them one after the other.
         let keys = leaf_bits.iter().enumerate().flat_map(|(word, &bits)| {
             (0..32).filter(move |bit| bits >> bit & 1 == 1).map(move |bit| 32 * word as u32 + bit)
@@ -48,7 +46,7 @@ impl Engine {
         Ok(voxels)
     }
 
-    fn read_all(&self, slot: &crate::data::octree::Slot, label: &str, words: u64) -> Result<Vec<u32>, GpuError> {
+    fn read_all(&self, slot: &Slot, label: &str, words: u64) -> Result<Vec<u32>, GpuError> {
         self.gpu.read(&slot.made(label)?, 0..4 * words)
     }
 }

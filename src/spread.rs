@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// Of times in milliseconds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
     pub median_ms: f64,
     pub p5_ms: f64,

@@ -1,0 +1,39 @@
+//! What a scene holds in one pose, as far as a plan depends on it.
+
+use crate::plan::SceneFacts;
+use crate::prepare::{FrameMatrices, Prepared};
+use crate::scene::{Primitive, Scene};
+use crate::settings::Hidden;
+
+/// Counts a frame's voxels in the grid, and the triangles of what is not hidden.
+pub fn facts(prepared: &Prepared, frame: &FrameMatrices, hidden: &Hidden, glossy_roughness: f64) -> SceneFacts {
+    let mut facts = SceneFacts::default();
+    for (part, _) in prepared.parts.iter().zip(&frame.resident).filter(|(_, resident)| **resident) {
+        let voxels = part.tile.voxels.len() as u64;
+        if prepared.is_skinned(part) {
+            facts.skinned_voxels += voxels
+        } else {
+            facts.rigid_voxels += voxels
+        }
+        if !prepared.caches[prepared.objects[part.object].cache].emission.is_empty() {
+            facts.emissive_voxels += voxels;
+        }
+    }
+    let shown = (0..).zip(&prepared.objects).filter(|(index, _)| !hidden.contains(*index));
+    let scene = &prepared.scene;
+    for (_, object) in shown {
+        let mesh = &scene.meshes[object.object.mesh];
+        facts.triangles += mesh.triangle_count() as u64;
+        facts.glossy |= mesh.primitives.iter().any(|primitive| may_be_glossy(scene, primitive, glossy_roughness));
+    }
+    facts
+}
+
+/// What a texture makes of a roughness is known per pixel only.
+fn may_be_glossy(scene: &Scene, primitive: &Primitive, glossy_roughness: f64) -> bool {
+    let material = primitive.material.and_then(|material| scene.materials.get(material));
+    material.is_some_and(|material| {
+        let is_smooth = f64::from(material.roughness) <= glossy_roughness;
+        !material.unlit && (is_smooth || material.metallic_roughness_texture.is_some())
+    })
+}

@@ -1,0 +1,95 @@
+//! What is shown of the lit surfaces, in linear light, and what it is multiplied by.
+
+use super::{Made, Making, Parts, Read};
+use crate::data::octree::Slot;
+use crate::engine::EngineError;
+use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
+use crate::plan::{Part, Pass};
+use crate::settings::SurfaceView;
+use crate::stages::cones::image_bytes;
+use crate::stages::surface::RADIANCE_BYTES;
+use crate::stages::surface::compose::{self, ComposeParams, Terms};
+use crate::stages::surface::mean_luminance::{self, EXPOSURE_BYTES, PictureExposure};
+use crate::stages::surface::sum_luminance::{self, SUM_BYTES};
+
+#[derive(Debug, Default)]
+pub struct ComposedLight {
+    pub shown: Slot,
+    /// In place of light that was not traced.
+    nothing: Slot,
+}
+
+#[derive(Debug, Default)]
+pub struct Exposure {
+    sums: Slot,
+    pub exposure: Slot,
+    /// As the GPU has found it.
+    pub measured: PictureExposure,
+}
+
+impl Made for ComposedLight {
+    fn record(
+        &mut self,
+        making: &Making<'_>,
+        parts: &Parts,
+        frame: &mut Recorder,
+    ) -> Result<Option<Read>, EngineError> {
+        let shown = self.shown.ensure(making.gpu, "shown light", image_bytes(making.request.shot.size_px))?;
+        let nothing = self.nothing.ensure(making.gpu, "no light", RADIANCE_BYTES)?;
+        making.begin(frame, Pass::ComposeSurfaces);
+        parts.compose(making, frame, making.method.settings().look.surface, (&shown, &nothing))?;
+        Ok(None)
+    }
+}
+
+impl Parts {
+    /// Puts together what a view of surfaces shows, from the terms that the method calls for.
+    pub fn compose(
+        &self,
+        making: &Making<'_>,
+        frame: &mut Recorder,
+        surface: SurfaceView,
+        (shown, nothing): (&GpuBuffer, &GpuBuffer),
+    ) -> Result<(), EngineError> {
+        let view = making.view();
+        let params = ComposeParams {
+            sky: making.method.sky_nits(),
+            glossy_roughness: making.method.settings().cone_tracing.glossy_roughness as f32,
+            span: making.request.grid().span as f32,
+            pad: 0,
+            pad_end: [0; 2],
+        };
+        let keys = making.keys;
+        let direct = keys.get(Part::DirectLight).and_then(|key| self.direct.get(key)?.direct.get());
+        let diffuse = keys.get(Part::DiffuseLight).and_then(|key| self.diffuse.get(key)?.diffuse.get());
+        let specular = keys.get(Part::SpecularLight).and_then(|key| self.specular.get(key)?.specular.get());
+        let terms = Terms { direct, diffuse, specular, nothing };
+        let image = self.surface_image(making)?;
+        compose::record(making.gpu, frame, image, (&view, &params), (surface, terms), shown);
+        Ok(())
+    }
+}
+
+impl Made for Exposure {
+    fn record(
+        &mut self,
+        making: &Making<'_>,
+        parts: &Parts,
+        frame: &mut Recorder,
+    ) -> Result<Option<Read>, EngineError> {
+        let gpu = making.gpu;
+        let composed = parts.composed.made(making.key(Part::ComposedLight)?, "shown light")?;
+        let sums = self.sums.ensure(gpu, "sums of luminance", SUM_BYTES)?;
+        let exposure = self.exposure.ensure_as(gpu, "exposure", EXPOSURE_BYTES, wgpu::BufferUsages::UNIFORM)?;
+        let [width, height] = making.request.shot.size_px;
+        making.begin(frame, Pass::MeasureExposure);
+        sum_luminance::record(gpu, frame, width * height, &composed.shown.made("shown light")?, &sums);
+        mean_luminance::record(gpu, frame, &sums, &exposure);
+        Ok(Some((exposure, 0..EXPOSURE_BYTES)))
+    }
+
+    fn received(&mut self, _: &Gpu, bytes: &[u8]) -> Result<(), GpuError> {
+        self.measured = bytemuck::pod_read_unaligned(bytes);
+        Ok(())
+    }
+}

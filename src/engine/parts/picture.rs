@@ -1,0 +1,167 @@
+//! The picture: which view draws it, from what.
+
+use super::{Made, Making, Parts, Read};
+use crate::data::octree::Slot;
+use crate::engine::EngineError;
+use crate::gpu::{GpuBuffer, GpuError, GpuTexture, Recorder};
+use crate::plan::{Part, Pass, light_shown, shows_light};
+use crate::settings::{ColorBy, Look, View};
+use crate::stages::light::LitOctree;
+use crate::stages::sample::SampledOctree;
+use crate::stages::view::ghost::{self, LeafSet};
+use crate::stages::view::march::{self, MarchedOctree};
+use crate::stages::view::march_light::{self, Exposure};
+use crate::stages::view::mesh::{self, MeshTarget, MeshView, camera_from_world};
+use crate::stages::view::picture::depth_buffer;
+use crate::stages::view::show_surfaces::{self, ShowSurfacesParams, ShownExposure};
+use crate::stages::view::{GHOST_COLORS, Palette, Picture, show_shadow, shown_color, slice};
+
+#[derive(Debug, Default)]
+pub struct Shown {
+    pub picture: Option<Picture>,
+    /// What triangles need beside it to hide one another.
+    depth: Option<GpuTexture>,
+    matrices: Slot,
+}
+
+type Recorded = Result<(), EngineError>;
+
+impl Made for Shown {
+    fn record(
+        &mut self,
+        making: &Making<'_>,
+        parts: &Parts,
+        frame: &mut Recorder,
+    ) -> Result<Option<Read>, EngineError> {
+        let size_px = making.request.shot.size_px;
+        let picture = match self.picture.take().filter(|picture| picture.size_px() == size_px) {
+            Some(picture) => picture,
+            None => Picture::new(making.gpu, size_px)?,
+        };
+        let drawn = &picture;
+        match making.method.settings().look.view {
+            View::Voxels if shows_light(&making.method.asked) => parts.march_light(making, frame, drawn),
+            View::Voxels => parts.march(making, frame, drawn),
+            View::Ghost => parts.ghost(making, frame, drawn),
+            View::Mesh => self.mesh(making, parts, frame, drawn),
+            View::Slice => parts.slice(making, frame, drawn),
+            View::ShadowMap => parts.shadow_map(making, frame, drawn),
+            View::Surfaces => parts.surfaces(making, frame, drawn),
+        }?;
+        self.picture = Some(picture);
+        Ok(None)
+    }
+}
+
+impl Shown {
+    fn mesh(&mut self, making: &Making<'_>, parts: &Parts, frame: &mut Recorder, picture: &Picture) -> Recorded {
+        let (gpu, shot, grid) = (making.gpu, &making.request.shot, making.request.grid());
+        let depth = match self.depth.take().filter(|depth| depth.size_px() == shot.size_px) {
+            Some(depth) => depth,
+            None => depth_buffer(gpu, shot.size_px)?,
+        };
+        let posed = parts.posed_mesh(making, &mut self.matrices, &camera_from_world(&shot.camera, grid))?;
+        let seen = MeshView { camera: &shot.camera, grid, look: &making.method.settings().look };
+        making.begin(frame, Pass::DrawMesh);
+        mesh::record(gpu, frame, &posed, seen, MeshTarget { picture, depth: &depth });
+        self.depth = Some(depth);
+        Ok(())
+    }
+}
+
+/// What light is multiplied by before it is shown.
+fn exposure(look: &Look) -> Exposure {
+    look.exposure_stops.map_or(Exposure::OfMean, |stops| Exposure::Set(stops.exp2()))
+}
+
+impl Parts {
+    fn march(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
+        let numbers = making.keys.get(Part::ObjectNumbers).and_then(|key| self.object_numbers.get(key));
+        let objects = numbers.and_then(|numbers| numbers.leaf_objects.get());
+        let octree = MarchedOctree::new(self.octree(making)?, objects)?;
+        let look = &making.method.settings().look;
+        let palette = Palette::new(shown_color(look, making.request.grid().depth));
+        making.begin(frame, Pass::MarchVoxels);
+        march::record(making.gpu, frame, &octree, (&making.view(), &palette), picture);
+        Ok(())
+    }
+
+    fn march_light(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
+        let octree = LitOctree::new(self.octree(making)?)?;
+        let light = self.light_shown(making)?;
+        let exposure = exposure(&making.method.settings().look);
+        making.begin(frame, Pass::MarchLight);
+        march_light::record(making.gpu, frame, &octree, (&light, exposure), &making.view(), picture);
+        Ok(())
+    }
+
+    fn ghost(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
+        let octree = self.octree(making)?;
+        let set = |leaf_bits: &Slot, occupied: &Slot| -> Result<LeafSet, GpuError> {
+            Ok(LeafSet { leaf_bits: leaf_bits.made("leaf bits")?, occupied: occupied.made("occupied masks")? })
+        };
+        let moved = set(&octree.masks.leaf_bits, &octree.masks.occupied)?;
+        let bits = self.exact_bits.made(making.key(Part::ExactBits)?, "exact bits")?;
+        let masks = self.exact_masks.made(making.key(Part::ExactMasks)?, "exact masks")?;
+        let exact = set(&bits.bits, &masks.occupied)?;
+        let leaves = Look { level: None, ..making.method.settings().look };
+        let view = making.view_of(&leaves);
+        making.begin(frame, Pass::MarchGhost);
+        ghost::record(making.gpu, frame, octree.sizes, (&moved, &exact), (&view, &GHOST_COLORS), picture);
+        Ok(())
+    }
+
+    fn slice(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
+        let look = &making.method.settings().look;
+        let light = self.light_shown(making)?;
+        let pointers = self.pointers(making.keys, look.slice.lookup);
+        let sampled = SampledOctree::new(self.octree(making)?, &light, look.slice.lookup, pointers.as_ref())?;
+        let palette = Palette::new(look.slice.value.color());
+        making.begin(frame, Pass::SliceOctree);
+        slice::record(making.gpu, frame, &sampled, (&look.slice, None), (&making.view(), &palette), picture);
+        Ok(())
+    }
+
+    fn shadow_map(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
+        let missing = || GpuError::Missing { label: "shadow map".to_owned() };
+        let maps = &self.shadow_maps.made(making.key(Part::ShadowMaps)?, "shadow maps")?.maps;
+        let wanted = making.method.settings().look.shadow_map;
+        let map = maps.get(wanted).or(maps.last()).ok_or_else(missing)?;
+        let range = map.params.range_cells(making.request.grid().cells());
+        let palette = Palette::new(ColorBy::Occupancy);
+        making.begin(frame, Pass::ShowShadowMap);
+        show_shadow::record(making.gpu, frame, map, range, (&making.view(), &palette), picture);
+        Ok(())
+    }
+
+    fn surfaces(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
+        let look = &making.method.settings().look;
+        let composed = self.composed.made(making.key(Part::ComposedLight)?, "shown light")?;
+        let shown = composed.shown.made("shown light")?;
+        let [least, most] = making.request.depth_range();
+        let is_sky = making.method.settings().lighting.sky_nits != [0.0; 3];
+        let params = ShowSurfacesParams { least: least as f32, most: most as f32, sky: u32::from(is_sky), pad: 0 };
+        let measured = making.keys.get(Part::Exposure).and_then(|key| self.exposure.get(key)?.exposure.get());
+        let exposure = match (look.exposure_stops, measured) {
+            (Some(stops), _) => ShownExposure::Set(stops.exp2()),
+            (None, Some(buffer)) => ShownExposure::Measured(buffer),
+            (None, None) => ShownExposure::Set(1.0),
+        };
+        let (view, palette) = (making.view(), Palette::new(ColorBy::Occupancy));
+        let seen = (self.surface_image(making)?, &shown);
+        making.begin(frame, Pass::ShowSurfaces);
+        let shown_as = (look.surface, look.tone_curve, exposure);
+        show_surfaces::record(making.gpu, frame, seen, shown_as, (&view, &palette, &params), picture);
+        Ok(())
+    }
+
+    /// The averaged light that the view reads.
+    fn light_shown(&self, making: &Making<'_>) -> Result<GpuBuffer, EngineError> {
+        Ok(match light_shown(&making.method.asked) {
+            Part::Irradiance => {
+                self.irradiance.made(making.key(Part::Irradiance)?, "irradiance")?.shown.made("shown irradiance")?
+            }
+            _ => self.light.made(making.key(Part::Light)?, "light")?.light.made("light")?,
+        })
+    }
+}

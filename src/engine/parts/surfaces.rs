@@ -1,0 +1,97 @@
+//! What the camera sees: the surface image, and the light that reaches it straight from the lights.
+
+use super::light::no_map;
+use super::{Made, Making, Parts, Read};
+use crate::data::octree::Slot;
+use crate::data::surface_image::SurfaceImage;
+use crate::engine::EngineError;
+use crate::engine::request::light_params;
+use crate::gpu::{GpuError, GpuTexture, Recorder};
+use crate::plan::{Part, Pass};
+use crate::settings::lighting::Shadows;
+use crate::stages::cones::image_bytes;
+use crate::stages::light::LitOctree;
+use crate::stages::light::shadow::ShadowMap;
+use crate::stages::surface::draw::{self, Seen};
+use crate::stages::surface::{Lit, direct, direct_march, emission};
+use crate::stages::view::mesh::camera_from_world;
+use crate::stages::view::picture::depth_buffer;
+
+#[derive(Debug, Default)]
+pub struct Surfaces {
+    image: Option<(SurfaceImage, GpuTexture)>,
+    matrices: Slot,
+}
+
+#[derive(Debug, Default)]
+pub struct DirectLight {
+    pub direct: Slot,
+    /// Hides nothing.
+    no_map: Option<ShadowMap>,
+}
+
+impl Surfaces {
+    pub fn image(&self) -> Result<&SurfaceImage, GpuError> {
+        let missing = || GpuError::Missing { label: "surface image".to_owned() };
+        self.image.as_ref().map(|(image, _)| image).ok_or_else(missing)
+    }
+}
+
+impl Made for Surfaces {
+    fn record(
+        &mut self,
+        making: &Making<'_>,
+        parts: &Parts,
+        frame: &mut Recorder,
+    ) -> Result<Option<Read>, EngineError> {
+        let (gpu, shot, grid) = (making.gpu, &making.request.shot, making.request.grid());
+        let (image, depth) = match self.image.take().filter(|(image, _)| image.size_px() == shot.size_px) {
+            Some(sized) => sized,
+            None => (SurfaceImage::new(gpu, shot.size_px)?, depth_buffer(gpu, shot.size_px)?),
+        };
+        let posed = parts.posed_mesh(making, &mut self.matrices, &camera_from_world(&shot.camera, grid))?;
+        let emission = making.method.settings().lighting.emission;
+        making.begin(frame, Pass::DrawSurfaces);
+        draw::record(gpu, frame, &posed, Seen { camera: &shot.camera, grid, emission }, (&image, &depth));
+        self.image = Some((image, depth));
+        Ok(None)
+    }
+}
+
+impl Made for DirectLight {
+    fn record(
+        &mut self,
+        making: &Making<'_>,
+        parts: &Parts,
+        frame: &mut Recorder,
+    ) -> Result<Option<Read>, EngineError> {
+        let (gpu, lighting) = (making.gpu, &making.method.settings().lighting);
+        let bytes = image_bytes(making.request.shot.size_px);
+        let sum = self.direct.ensure(gpu, "direct light of surfaces", bytes)?;
+        let view = making.view();
+        let open = no_map(gpu, &mut self.no_map)?;
+        let lit = Lit { image: parts.surface_image(making)?, view: &view, direct: &sum };
+        making.begin(frame, Pass::EmitSurfaces);
+        emission::record(gpu, frame, &lit);
+        let lights = light_params(&making.request.prepared, &making.method.lights, lighting);
+        if lighting.shadows == Shadows::March && !lights.is_empty() {
+            let octree = LitOctree::new(parts.octree(making)?)?;
+            making.begin(frame, Pass::LightByMarching);
+            lights.iter().for_each(|light| direct_march::record(gpu, frame, &lit, light, &octree));
+            return Ok(None);
+        }
+        let maps = parts.shadow_maps_read(making);
+        making.begin(frame, Pass::LightSurfaces);
+        for (number, light) in lights.iter().enumerate() {
+            let map = maps.get(number).filter(|_| lighting.shadows == Shadows::Map).unwrap_or(&open);
+            direct::record(gpu, frame, &lit, light, map);
+        }
+        Ok(None)
+    }
+}
+
+impl Parts {
+    pub fn surface_image(&self, making: &Making<'_>) -> Result<&SurfaceImage, EngineError> {
+        Ok(self.surfaces.made(making.key(Part::SurfaceImage)?, "surface image")?.image()?)
+    }
+}

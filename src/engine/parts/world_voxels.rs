@@ -1,0 +1,89 @@
+//! Voxel transformation (section 4.2): one half of the pages, of static and rigid objects or of skinned ones, moved
+//! for the pose. The halves lie in the buffers of their pages; each is moved by itself.
+
+use super::{Made, Making, Parts, Read};
+use crate::engine::EngineError;
+use crate::gpu::{GpuError, Recorder};
+use crate::plan::{Key, Part, Pass};
+use crate::stages::transform::{MovingVoxels, rigid, skinned};
+
+#[derive(Debug, Default)]
+pub struct RigidVoxels(Half);
+
+#[derive(Debug, Default)]
+pub struct SkinnedVoxels(Half);
+
+/// Which pages it lies in.
+#[derive(Debug, Default)]
+pub struct Half(Option<Key>);
+
+impl RigidVoxels {
+    pub fn lie_in(&self, pages: &Key) -> bool {
+        self.0.0.as_ref() == Some(pages)
+    }
+}
+
+impl SkinnedVoxels {
+    pub fn lie_in(&self, pages: &Key) -> bool {
+        self.0.0.as_ref() == Some(pages)
+    }
+}
+
+impl Parts {
+    /// What moves voxels, and what reads them where they have been moved to.
+    pub fn moving_voxels(&self, making: &Making<'_>) -> Result<MovingVoxels, EngineError> {
+        let caches = self.caches.made(making.key(Part::Caches)?, "caches")?;
+        let pages = self.pages.made(making.key(Part::Pages)?, "world voxel pages")?;
+        let missing = || GpuError::Missing { label: "cache voxels".to_owned() };
+        Ok(MovingVoxels {
+            work_items: pages.work_items()?,
+            work_hints: pages.work_hints()?,
+            parts: pages.parts()?,
+            matrices: pages.matrices()?,
+            cache_voxels: caches.voxels.clone().ok_or_else(missing)?,
+            cache_joints: caches.joints.clone(),
+            world_voxels: pages.world_voxels()?,
+            rigid_threads: pages.rigid_threads(),
+            skinned_threads: pages.threads() - pages.rigid_threads(),
+        })
+    }
+}
+
+impl Half {
+    fn begin(&mut self, making: &Making<'_>, parts: &Parts) -> Result<MovingVoxels, EngineError> {
+        let key = making.key(Part::Pages)?;
+        parts.pages.made(key, "world voxel pages")?.write_matrices(making.gpu, making.method)?;
+        self.0 = Some(key.clone());
+        parts.moving_voxels(making)
+    }
+}
+
+impl Made for RigidVoxels {
+    fn record(
+        &mut self,
+        making: &Making<'_>,
+        parts: &Parts,
+        frame: &mut Recorder,
+    ) -> Result<Option<Read>, EngineError> {
+        let voxels = self.0.begin(making, parts)?;
+        making.begin(frame, Pass::TransformRigid);
+        rigid::record(making.gpu, frame, &voxels, making.request.grid().cells());
+        Ok(None)
+    }
+}
+
+impl Made for SkinnedVoxels {
+    fn record(
+        &mut self,
+        making: &Making<'_>,
+        parts: &Parts,
+        frame: &mut Recorder,
+    ) -> Result<Option<Read>, EngineError> {
+        let voxels = self.0.begin(making, parts)?;
+        let missing = || GpuError::Missing { label: "cache joints".to_owned() };
+        let joints = voxels.cache_joints.as_ref().ok_or_else(missing)?;
+        making.begin(frame, Pass::TransformSkinned);
+        skinned::record(making.gpu, frame, &voxels, joints, making.request.grid().cells());
+        Ok(None)
+    }
+}
