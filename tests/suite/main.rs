@@ -104,3 +104,4 @@ mod view_rig;
 mod voxelization;
 mod voxelization_payload;
 mod voxelization_surface;
+mod walks;
