@@ -16,9 +16,9 @@ mkdir -p "$3"
 folder=$(realpath "$3")
 
 # Places in a window of 1440 x 900, as it opens.
-readonly NEAREST="133 470" SPLIT="230 470" MEASURE="15 661"
-readonly VOXELS="114 763" MESH="164 763" GHOST="211 763"
-readonly LEVEL_LEAVES="214 812" LEVEL_MIDDLE="150 812"
+readonly NEAREST="133 470" SPLIT="230 470" MEASURE="15 681"
+readonly VOXELS="114 784" MESH="164 784" GHOST="211 784"
+readonly LEVEL_LEAVES="214 831" LEVEL_MIDDLE="150 831"
 readonly TIME_START="342 882" TIME_MIDDLE="700 882"
 readonly TREE_SECOND_ROW="400 93"
 readonly VIEW_MIDDLE="690 460" VIEW_ASIDE="810 520" SCREENSHOT="1278 17"
@@ -129,7 +129,9 @@ click "$SPLIT"; photograph_at_rest 03-split; must_equal 01-opened 03-split
 
 drag "$TIME_START" "$TIME_MIDDLE"; photograph_at_rest 04-scrubbed; must_change 03-split 04-scrubbed
 xdotool key Right key Right; photograph_at_rest 05-stepped; must_change 04-scrubbed 05-stepped
-xdotool key space sleep 2 key space; photograph_at_rest 06-played; must_change 05-stepped 06-played
+xdotool key space sleep 2; photograph 06-playing; sleep 1; photograph 06-playing-on
+must_change 06-playing 06-playing-on
+xdotool key space; photograph_at_rest 06-played; must_change 05-stepped 06-played
 
 drag "$LEVEL_LEAVES" "$LEVEL_MIDDLE"; photograph_at_rest 07-level; must_change 06-played 07-level
 drag "$LEVEL_MIDDLE" "$LEVEL_LEAVES"; photograph_at_rest 08-leaves; must_equal 06-played 08-leaves

@@ -5,6 +5,7 @@ mod files;
 mod lights;
 mod node;
 mod opening;
+mod playing;
 mod reference;
 mod rig;
 mod surfaces;

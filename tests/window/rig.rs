@@ -61,8 +61,24 @@ impl Window {
         })
     }
 
+    /// The same in a window of another size.
+    pub fn sized(device: egui_wgpu::WgpuSetup, scene: &str, settings: Settings, size: egui::Vec2) -> Self {
+        let scene = PathBuf::from(scene);
+        Self::build_sized(device, size, move |context| {
+            App::new(context, &scene, Start { settings, ..Start::default() }).expect("a window")
+        })
+    }
+
     pub fn build(device: egui_wgpu::WgpuSetup, app: impl FnOnce(&mut eframe::CreationContext<'static>) -> App) -> Self {
-        let builder = Harness::builder().with_size(vec2(1000.0, 1000.0)).with_render_cursor(false);
+        Self::build_sized(device, vec2(1000.0, 1000.0), app)
+    }
+
+    fn build_sized(
+        device: egui_wgpu::WgpuSetup,
+        size: egui::Vec2,
+        app: impl FnOnce(&mut eframe::CreationContext<'static>) -> App,
+    ) -> Self {
+        let builder = Harness::builder().with_size(size).with_render_cursor(false);
         let mut window = Self(builder.wgpu_setup(device).build_eframe(app));
         window.settle();
         window
