@@ -15,6 +15,8 @@ pub enum Pass {
     MarkLeaves,
     ReduceMasks,
     ScanBlocks,
+    /// How many blocks, nodes and leaves there are: everything behind ends there.
+    CountNodes,
     EmitNodes,
     SortVoxels,
     GatherNearest,
@@ -71,7 +73,7 @@ pub enum Pass {
 
 impl Pass {
     /// Every pass, in frame order.
-    pub const ALL: [Self; 44] = [
+    pub const ALL: [Self; 45] = [
         Self::UploadCaches,
         Self::ObjectIo,
         Self::TransformRigid,
@@ -79,6 +81,7 @@ impl Pass {
         Self::MarkLeaves,
         Self::ReduceMasks,
         Self::ScanBlocks,
+        Self::CountNodes,
         Self::EmitNodes,
         Self::SortVoxels,
         Self::GatherNearest,
@@ -125,7 +128,7 @@ impl Pass {
             Self::ObjectIo => &[Part::Pages],
             Self::TransformRigid => &[Part::RigidVoxels],
             Self::TransformSkinned => &[Part::SkinnedVoxels],
-            Self::MarkLeaves | Self::ReduceMasks | Self::ScanBlocks => &[Part::Masks],
+            Self::MarkLeaves | Self::ReduceMasks | Self::ScanBlocks | Self::CountNodes => &[Part::Masks],
             Self::EmitNodes => &[Part::Topology],
             Self::SortVoxels | Self::GatherNearest | Self::GatherSplit | Self::AverageNodes => &[Part::Payload],
             Self::NumberObjects => &[Part::ObjectNumbers],
@@ -158,7 +161,8 @@ impl Pass {
             Self::TransformSkinned => &["transform/skinned"],
             Self::MarkLeaves => &["build/mark"],
             Self::ReduceMasks | Self::ReduceExact => &["build/reduce"],
-            Self::ScanBlocks => &["build/scan_sum", "build/scan_spread", "build/size"],
+            Self::ScanBlocks => &["build/scan_sum", "build/scan_spread"],
+            Self::CountNodes => &["build/size"],
             Self::EmitNodes => &["build/emit"],
             Self::SortVoxels => &["fill/count", "build/scan_sum", "build/scan_spread", "fill/place"],
             Self::GatherNearest | Self::GatherSplit => &["fill/gather", "fill/gather_heavy"],

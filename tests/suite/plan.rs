@@ -51,10 +51,11 @@ pub fn other() -> Digest {
     Digest::of(&1)
 }
 
-const BUILD: [Pass; 7] = [
+const BUILD: [Pass; 8] = [
     Pass::MarkLeaves,
     Pass::ReduceMasks,
     Pass::ScanBlocks,
+    Pass::CountNodes,
     Pass::EmitNodes,
     Pass::SortVoxels,
     Pass::GatherSplit,

@@ -93,6 +93,7 @@ impl Made for Masks {
         let words = octree.blocks_words();
         let ranks = self.buffers.ranks.ensure(gpu, "block ranks", 4 * u64::from(words + 1))?;
         scan::record(gpu, frame, (Scanned::Bits, words), &masks.blocks, &ranks, &mut self.buffers.scan_sums)?;
+        making.begin(frame, Pass::CountNodes);
         let read = self.record_read(gpu, frame, &octree)?;
         // Where nothing is likely there is no room for anything, and what is behind waits.
         let sizes = OctreeSizes { params: self.room.unwrap_or(octree), ..sizes };
