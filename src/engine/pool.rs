@@ -110,9 +110,11 @@ impl<T: Default> Pool<T> {
         }
     }
 
-    /// Forgets what holds for some contents.
-    pub fn forget_where(&mut self, is_forgotten: impl Fn(&T) -> bool) {
-        self.0.iter_mut().filter(|instance| is_forgotten(&instance.content)).for_each(|instance| instance.key = None);
+    /// Forgets what was made from this input.
+    pub fn forget_made_from(&mut self, input: &Key) {
+        let is_made_from = |key: &Key| key.inputs().any(|(_, from)| from == input);
+        let made = self.0.iter_mut().filter(|instance| instance.key.as_ref().is_some_and(is_made_from));
+        made.for_each(|instance| instance.key = None);
     }
 }
 

@@ -200,3 +200,24 @@ fn a_node_is_framed_with_what_is_below_it() {
     assert_eq!(empty.center(), DVec3::new(12.0, 1.0, 0.0));
     assert!(empty.size().min_element() > 0.0, "a place has room around it");
 }
+
+#[test]
+fn what_comes_back_into_pages_that_others_lay_in_is_moved_again() {
+    let prepared = &crate::walks::scenes::prepared()[0];
+    let new = || {
+        let mut engine = Engine::new(Arc::new(device::open()));
+        engine.set_prepared(Some(Arc::clone(prepared)));
+        engine
+    };
+    // A rigid object, a skinned one in its segments, and the rigid one again.
+    let alone = [2, 3, 2]
+        .map(|node| Settings { visibility: Visibility { only: [node].into(), ..Default::default() }, ..settings() });
+    let mut engine = new();
+    for settings in &alone {
+        frame(&mut engine, settings);
+        let mut fresh = new();
+        frame(&mut fresh, settings);
+        assert_eq!(engine.read_voxels(), fresh.read_voxels());
+        assert_eq!(engine.read_image(), fresh.read_image());
+    }
+}

@@ -152,11 +152,11 @@ impl Parts {
     fn forget_overwritten(&mut self, making: &Making<'_>) -> Result<(), EngineError> {
         if matches!(making.part, Part::Pages | Part::RigidVoxels) {
             let pages = making.key(Part::Pages)?;
-            self.rigid.forget_where(|voxels| voxels.lie_in(pages));
+            self.rigid.forget_made_from(pages);
         }
         if matches!(making.part, Part::Pages | Part::SkinnedVoxels) {
             let pages = making.key(Part::Pages)?;
-            self.skinned.forget_where(|voxels| voxels.lie_in(pages));
+            self.skinned.forget_made_from(pages);
         }
         Ok(())
     }
@@ -204,11 +204,15 @@ impl Parts {
         planned.key.inputs().all(is_sized)
     }
 
-    /// The keys of all that is made, the most recently used last.
+    /// The keys of all that is made, the most recently used last. Moved voxels are where their pages are, and gone
+    /// with them.
     pub fn held(&self) -> Held {
         let mut held = Held::default();
         for part in Part::ALL {
             let mut keys = self.kept(part).keys();
+            if matches!(part, Part::RigidVoxels | Part::SkinnedVoxels) {
+                keys.retain(|(_, key)| key.inputs().all(|(pages, key)| held.holds(pages, key)));
+            }
             keys.sort_by_key(|(used, _)| *used);
             keys.into_iter().for_each(|(_, key)| held.hold(part, key));
         }

@@ -4,30 +4,16 @@
 use super::{Made, Making, Parts, Read};
 use crate::engine::EngineError;
 use crate::gpu::{GpuError, Recorder};
-use crate::plan::{Key, Part, Pass};
+use crate::plan::{Part, Pass};
 use crate::stages::transform::{MovingVoxels, rigid, skinned};
 
+/// Its voxels lie in the buffers of the pages that its key names.
 #[derive(Debug, Default)]
-pub struct RigidVoxels(Half);
+pub struct RigidVoxels;
 
+/// The same of skinned ones.
 #[derive(Debug, Default)]
-pub struct SkinnedVoxels(Half);
-
-/// Which pages it lies in.
-#[derive(Debug, Default)]
-pub struct Half(Option<Key>);
-
-impl RigidVoxels {
-    pub fn lie_in(&self, pages: &Key) -> bool {
-        self.0.0.as_ref() == Some(pages)
-    }
-}
-
-impl SkinnedVoxels {
-    pub fn lie_in(&self, pages: &Key) -> bool {
-        self.0.0.as_ref() == Some(pages)
-    }
-}
+pub struct SkinnedVoxels;
 
 impl Parts {
     /// What moves voxels, and what reads them where they have been moved to.
@@ -49,13 +35,10 @@ impl Parts {
     }
 }
 
-impl Half {
-    fn begin(&mut self, making: &Making<'_>, parts: &Parts) -> Result<MovingVoxels, EngineError> {
-        let key = making.key(Part::Pages)?;
-        parts.pages.made(key, "world voxel pages")?.write_matrices(making.gpu, making.method)?;
-        self.0 = Some(key.clone());
-        parts.moving_voxels(making)
-    }
+fn begin(making: &Making<'_>, parts: &Parts) -> Result<MovingVoxels, EngineError> {
+    let pages = parts.pages.made(making.key(Part::Pages)?, "world voxel pages")?;
+    pages.write_matrices(making.gpu, making.method)?;
+    parts.moving_voxels(making)
 }
 
 impl Made for RigidVoxels {
@@ -65,7 +48,7 @@ impl Made for RigidVoxels {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let voxels = self.0.begin(making, parts)?;
+        let voxels = begin(making, parts)?;
         making.begin(frame, Pass::TransformRigid);
         rigid::record(making.gpu, frame, &voxels, making.request.grid().cells());
         Ok(None)
@@ -79,7 +62,7 @@ impl Made for SkinnedVoxels {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let voxels = self.0.begin(making, parts)?;
+        let voxels = begin(making, parts)?;
         let missing = || GpuError::Missing { label: "cache joints".to_owned() };
         let joints = voxels.cache_joints.as_ref().ok_or_else(missing)?;
         making.begin(frame, Pass::TransformSkinned);

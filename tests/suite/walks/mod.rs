@@ -5,7 +5,7 @@
 //! `OCTOLUME_WALKS=5000 cargo test --test suite walks` for more than the suite's own.
 
 mod changes;
-mod scenes;
+pub mod scenes;
 mod walker;
 
 use octolume::digest::Digest;
