@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::Duration;
 
-use octolume::engine::{Engine, EngineError, EngineState};
+use octolume::engine::{Engine, EngineError, EngineState, WorldVoxels};
 use octolume::gpu::Gpu;
 use octolume::plan::Asked;
 use octolume::prepare::{ExactVoxels, Prepared};
@@ -218,7 +218,7 @@ impl Walker {
         let mut fresh = self.fresh(&self.settings).map_err(tell)?;
         fresh.run_to_end().map_err(tell)?;
         match difference(&self.engine, &fresh) {
-            Some(what) => Err(format!("{what} differs, for {:?}", self.settings)),
+            Some(what) => Err(format!("{what}; for {:?}", self.settings)),
             None => Ok(()),
         }
     }
@@ -234,8 +234,8 @@ fn exact_where_looked_at(prepared: &Prepared, settings: &Settings) -> Option<Arc
     exact(prepared, settings).filter(|_| is_looked_at)
 }
 
-/// What of two engines' results is not the same, bit for bit.
-fn difference(walked: &Engine, fresh: &Engine) -> Option<&'static str> {
+/// What of two engines' results is not the same, bit for bit, and how.
+fn difference(walked: &Engine, fresh: &Engine) -> Option<String> {
     let counts = |engine: &Engine| {
         let report = engine.accuracy();
         let of = |filter: Option<octolume::engine::FilterReport>| {
@@ -244,19 +244,55 @@ fn difference(walked: &Engine, fresh: &Engine) -> Option<&'static str> {
         report.map(|report| (of(report.nearest), of(report.split), report.exact_cells))
     };
     let light = |engine: &Engine| (engine.exposure().to_bits(), engine.value_range(), engine.glossy_tiles());
-    let checks = [
-        ("the picture", walked.read_image().ok() == fresh.read_image().ok()),
-        ("the voxels", walked.read_voxels().ok() == fresh.read_voxels().ok()),
-        ("the octree's report", walked.octree_report() == fresh.octree_report()),
-        ("holes and spill", counts(walked) == counts(fresh)),
-        ("exposure or scale", light(walked) == light(fresh)),
-        ("the light of surfaces", bits(walked) == bits(fresh)),
-        ("what is left out", walked.left_out() == fresh.left_out()),
+    let image = |engine: &Engine| read(engine.read_image()).map(image::RgbaImage::into_raw);
+    let lists = [
+        lists_differ("the picture", image(walked), image(fresh)),
+        lists_differ("the voxels", voxels(walked), voxels(fresh)),
+        lists_differ("the light of surfaces", bits(walked), bits(fresh)),
+        differ("the octree's report", &walked.octree_report(), &fresh.octree_report()),
+        differ("holes and spill", &counts(walked), &counts(fresh)),
+        differ("exposure or scale", &light(walked), &light(fresh)),
+        differ("what is left out", &walked.left_out(), &fresh.left_out()),
     ];
-    checks.into_iter().find(|(_, is_equal)| !is_equal).map(|(what, _)| what)
+    lists.into_iter().flatten().next()
 }
 
-fn bits(engine: &Engine) -> Option<Vec<u32>> {
-    let light = engine.read_surfaces().ok()??;
-    Some(light.as_flattened().iter().map(|value| value.to_bits()).collect())
+fn read<T>(read: Result<T, EngineError>) -> Result<T, String> {
+    read.map_err(|error| error.to_string())
+}
+
+type Voxel = ([i32; 3], f32, [f32; 3], [f32; 3]);
+
+fn voxels(engine: &Engine) -> Result<Vec<Voxel>, String> {
+    let WorldVoxels { cells, occupancy, albedo, normal } = read(engine.read_voxels())?;
+    let rest = occupancy.into_iter().zip(albedo).zip(normal);
+    Ok(cells
+        .into_iter()
+        .zip(rest)
+        .map(|(cell, ((occupancy, albedo), normal))| (cell, occupancy, albedo, normal))
+        .collect())
+}
+
+fn bits(engine: &Engine) -> Result<Vec<u32>, String> {
+    let light = read(engine.read_surfaces())?.unwrap_or_default();
+    Ok(light.as_flattened().iter().map(|value| value.to_bits()).collect())
+}
+
+fn differ<T: PartialEq + std::fmt::Debug>(what: &str, walked: &T, fresh: &T) -> Option<String> {
+    (walked != fresh).then(|| format!("{what} differs: {walked:?}, fresh {fresh:?}"))
+}
+
+/// Lists are too long to print: how many there are, where the first two differ, or why one could not be read.
+fn lists_differ<T>(what: &str, walked: Result<Vec<T>, String>, fresh: Result<Vec<T>, String>) -> Option<String>
+where
+    T: PartialEq + std::fmt::Debug,
+{
+    let (Ok(walked), Ok(fresh)) = (&walked, &fresh) else {
+        let told = [&walked, &fresh].map(|list| list.as_ref().map(Vec::len));
+        return differ(what, &told[0], &told[1]);
+    };
+    let first = walked.iter().zip(fresh).position(|(walked, fresh)| walked != fresh);
+    let first = first.or((walked.len() != fresh.len()).then(|| walked.len().min(fresh.len())))?;
+    let at = |list: &[T]| format!("{:?} of {}", list.get(first), list.len());
+    Some(format!("{what} differ at {first}: {}, fresh {}", at(walked), at(fresh)))
 }
