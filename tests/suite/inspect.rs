@@ -7,7 +7,7 @@ use octolume::engine::{Engine, NodeAddress, NodeFacts};
 use octolume::prepare::prepare;
 use octolume::progress::Progress;
 use octolume::scene::{builtin, load};
-use octolume::settings::{ColorBy, Settings};
+use octolume::settings::{ColorBy, Settings, SliceValue, View};
 use octolume::stages::view::camera::PixelRays;
 
 use crate::device::open;
@@ -163,4 +163,19 @@ fn a_pixel_shows_the_node_its_ray_meets() {
         assert!(met > 60, "{met} pixels show a node");
         assert_eq!(engine.node_at(SIZE_PX).expect("no pixel"), None);
     }
+}
+
+/// Light that was stored before is kept for its opacity; its radiance is not on screen.
+#[test]
+fn a_slice_of_occupancy_has_the_exposure_of_no_light_whatever_was_shown_before() {
+    let mut occupancy = settings();
+    (occupancy.look.view, occupancy.look.slice.value) = (View::Slice, SliceValue::Occupancy);
+    assert_eq!(engine(&occupancy).exposure(), 1.0);
+    let mut radiance = occupancy.clone();
+    radiance.look.slice.value = SliceValue::Radiance;
+    let mut engine = engine(&radiance);
+    assert_ne!(engine.exposure(), 1.0, "the courtyard is lit");
+    engine.request(&occupancy, SIZE_PX).expect("a request");
+    engine.run_to_end().expect("a frame");
+    assert_eq!(engine.exposure(), 1.0);
 }

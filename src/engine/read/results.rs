@@ -3,7 +3,7 @@
 use super::super::request::Request;
 use super::super::{AccuracyReport, Engine, OctreeReport, PassTiming};
 use crate::color::luminance;
-use crate::plan::{Keys, Part, light_shown};
+use crate::plan::{Keys, Part, light_shown, only_opacity};
 use crate::settings::{SurfaceView, View};
 use crate::stages::view::{MEAN_SHOWN_AS, slice};
 
@@ -50,9 +50,12 @@ impl Engine {
         }
     }
 
-    /// Luminance of the scene's mean light, of the kind that the view shows; `None` where there is none.
+    /// Luminance of the scene's mean light, of the kind that the view shows; `None` where there is none, or the view
+    /// reads opacity alone, whatever light was stored beside it before.
     fn mean_light(&self, request: &Request, keys: &Keys) -> Option<f64> {
-        let [r, g, b, opacity] = match light_shown(&request.shown().asked) {
+        let asked = &request.shown().asked;
+        let [r, g, b, opacity] = match light_shown(asked) {
+            _ if only_opacity(asked) => return None,
             Part::Irradiance => self.parts.irradiance.finished(keys.get(Part::Irradiance)?)?.root,
             _ => self.parts.light.finished(keys.get(Part::Light)?)?.root,
         };
