@@ -6,10 +6,8 @@
 
 use glam::DVec3;
 
-use crate::prepare::{MotionError, Prepared};
-use crate::scene::{Light, LightKind, Pose, Scene};
+use crate::scene::{LightKind, Pose, Scene};
 use crate::settings::lighting::{LightEdit, Lighting, SunShines};
-use crate::settings::{Settings, VisibilityError};
 
 /// A light where it is now. Directional lights have no position, point lights no direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,26 +59,6 @@ pub struct KnownLight {
     direction: DVec3,
 }
 
-/// Why nobody knows where the lights are.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum LightsError {
-    #[error(transparent)]
-    Motion(#[from] MotionError),
-    #[error(transparent)]
-    Visibility(#[from] VisibilityError),
-}
-
-/// How a light of the file is without an edit.
-pub fn unedited(light: &Light) -> LightEdit {
-    let color = light.color.map(f64::from);
-    LightEdit { on: true, kind: light.kind, color, intensity: f64::from(light.intensity) }
-}
-
-/// Something in the scene glows by itself, as far as the settings let it.
-pub fn emits(prepared: &Prepared, lighting: &Lighting) -> bool {
-    lighting.emission > 0.0 && prepared.brightest_emission > 0.0
-}
-
 /// Whether our own sun is among the lights. `emits`: something in the scene does.
 pub fn sun_shines(scene: &Scene, lighting: &Lighting, emits: bool) -> bool {
     match lighting.sun.shines {
@@ -90,19 +68,11 @@ pub fn sun_shines(scene: &Scene, lighting: &Lighting, emits: bool) -> bool {
     }
 }
 
-/// Every light of a pose that settings ask for.
-pub fn known_in(prepared: &Prepared, settings: &Settings) -> Result<Vec<KnownLight>, LightsError> {
-    let (scene, lighting) = (&prepared.scene, &settings.lighting);
-    let pose = prepared.pose(&settings.motion)?;
-    let shown = settings.visibility.shown_nodes(scene)?;
-    Ok(known_lights(scene, &pose, lighting, &shown, emits(prepared, lighting)))
-}
-
 /// Every light: of the scene in the order of its nodes, the sun, then what was added. `shown`: by node.
 pub fn known_lights(scene: &Scene, pose: &Pose, lighting: &Lighting, shown: &[bool], emits: bool) -> Vec<KnownLight> {
     let carried = scene.nodes.iter().enumerate().filter_map(|(node, of)| Some((node, scene.lights.get(of.light?)?)));
     let of_scene = carried.map(|(node, light)| {
-        let edit = lighting.edits.get(&node).copied().unwrap_or_else(|| unedited(light));
+        let edit = lighting.edits.get(&node).copied().unwrap_or_else(|| LightEdit::of(light));
         let is_hidden = !shown.get(node).copied().unwrap_or(true);
         // A pose has as many matrices as the scene has nodes.
         let world_from_node = pose.world_from_node.get(node).copied().unwrap_or(glam::DMat4::NAN);

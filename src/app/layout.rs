@@ -13,7 +13,7 @@ use super::panels::tree::TreePanel;
 use super::panels::view::ViewPanel;
 use super::panels::{self, section};
 use super::{App, shortcuts, theme};
-use crate::lights::{self, Shines};
+use crate::lights::Shines;
 use crate::settings::{ConeTracing, View};
 
 impl eframe::App for App {
@@ -163,7 +163,7 @@ impl App {
     /// Names of the lights that have a shadow map, as far as they are asked for.
     fn shining(&self) -> Vec<String> {
         let looked_at = self.settings.look.view == View::ShadowMap;
-        let known = self.prepared().filter(|_| looked_at).map(|prepared| lights::known_in(prepared, &self.settings));
+        let known = self.prepared().filter(|_| looked_at).map(|prepared| prepared.known_lights(&self.settings));
         let known = known.and_then(Result::ok).unwrap_or_default();
         known.into_iter().filter(|light| light.shines == Shines::Yes).map(|light| light.name).collect()
     }
@@ -174,7 +174,7 @@ impl App {
             return Vec::new();
         };
         let lighting = &self.settings.lighting;
-        let known = match lights::known_in(&ready.prepared, &self.settings) {
+        let known = match ready.prepared.known_lights(&self.settings) {
             Ok(known) => known,
             Err(error) => {
                 panels::nothing(ui, &error.to_string());

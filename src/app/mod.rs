@@ -66,6 +66,7 @@ use crate::prepare::Prepared;
 use crate::scene::Clip;
 use crate::scene::load::OpenOptions;
 use crate::settings::{NodeNames, Settings};
+use crate::stages::SHADERS;
 
 /// How often a progress bar is redrawn.
 const PROGRESS_STEP: Duration = Duration::from_millis(100);
@@ -177,7 +178,7 @@ impl App {
 
     fn empty(context: &eframe::CreationContext<'_>, start: Start) -> Result<Self, NoApp> {
         let render = context.wgpu_render_state.clone().ok_or("the window has no GPU")?;
-        let gpu = Arc::new(Gpu::from_wgpu(&render.adapter, render.device.clone(), render.queue.clone()));
+        let gpu = Arc::new(Gpu::from_wgpu(&SHADERS, &render.adapter, render.device.clone(), render.queue.clone()));
         theme::apply(&context.egui_ctx);
         let mut app = Self {
             settings: start.settings,

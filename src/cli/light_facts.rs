@@ -1,6 +1,6 @@
 //! The lights of a scene, as `info` tells of them.
 
-use octolume::lights::{KnownLight, LightSource, Shines, known_in};
+use octolume::lights::{KnownLight, LightSource, Shines};
 use octolume::prepare::Prepared;
 use octolume::scene::LightKind;
 use octolume::settings::Settings;
@@ -32,7 +32,7 @@ pub struct LightFacts {
 
 /// Those of the scene in the order of its nodes, our own sun, then what was added.
 pub fn lights(prepared: &Prepared, settings: &Settings) -> anyhow::Result<Vec<LightFacts>> {
-    let known = known_in(prepared, settings)?;
+    let known = prepared.known_lights(settings)?;
     let facts = known.into_iter().map(|light| LightFacts::new(light, prepared, settings));
     Ok(facts.collect())
 }

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use bytesize::ByteSize;
 use clap::Args;
-use octolume::data::voxel_cache::VoxelizationMode;
 use octolume::disk_cache::DiskCache;
 use octolume::export;
 use octolume::scene::OrbitCamera;
 use octolume::scene::load::{OpenOptions, SceneChoice};
+use octolume::settings::VoxelizationMode;
 use octolume::settings::{Discretization, Filter, NodeNames, Settings, VoxelAnchor};
 
 use super::cone_options::ConeOptions;

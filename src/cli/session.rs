@@ -11,6 +11,7 @@ use octolume::progress::Progress;
 use octolume::scene::load::{self, OpenOptions};
 use octolume::scene::{Scene, builtin};
 use octolume::settings::Settings;
+use octolume::stages::SHADERS;
 
 use super::options::Common;
 use super::output;
@@ -119,7 +120,7 @@ fn open_scene(scene: &Path, options: &OpenOptions) -> anyhow::Result<Scene> {
 }
 
 fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
-    let gpu = Gpu::headless(common.adapter.as_deref())?;
+    let gpu = Gpu::headless(&SHADERS, common.adapter.as_deref())?;
     output::warnings(&gpu.warnings());
     Ok(Engine::new(Arc::new(gpu)))
 }

@@ -15,10 +15,15 @@
 //! Radiance times opacity is what interpolates and averages; over opacity it is the mean radiance.
 
 use super::octree::{OctreeParams, Slot};
-use crate::settings::lighting::Opacity;
+use crate::gpu::{Constant, constants};
 
 /// Largest stored emission of a voxel: 20 bits, so that 2^20 of them times 2^24 fit in two words.
 pub const EMISSION_MAX: u32 = (1 << 20) - 1;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer EMISSION_MAX,
+];
+
 /// Bytes of an entry of `light`.
 pub const LIGHT_BYTES: u64 = 16;
 /// Bytes of three floats.
@@ -32,10 +37,10 @@ pub struct EmissionBuffers {
     pub emitting_blocks: Slot,
 }
 
-/// Bytes of `light` for an octree.
-pub fn light_bytes(octree: &OctreeParams, opacity: Opacity) -> u64 {
+/// Bytes of `light` for an octree. `is_directional`: opacity is kept along each axis too.
+pub fn light_bytes(octree: &OctreeParams, is_directional: bool) -> u64 {
     let inner = u64::from(octree.inner_node_count);
-    let by_direction = if opacity == Opacity::Directional { inner } else { 0 };
+    let by_direction = if is_directional { inner } else { 0 };
     LIGHT_BYTES * (inner + u64::from(octree.leaf_count) + by_direction)
 }
 

@@ -23,6 +23,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::gpu::{Constant, Mirror, constants, mirror};
+
 pub use super::octree_buffers::{MaskBuffers, OctreeRef, OctreeSizes, PayloadBuffers, TopologyBuffers};
 pub use super::slot::Slot;
 
@@ -38,6 +40,15 @@ pub const NO_BLOCK: u32 = u32::MAX;
 pub const ALBEDO_NODE_SCALE: u32 = 4;
 /// Voxels that one thread may sum in two 12-bit halves without a carry: 1024 · 4096 · 1022 < 2^32.
 pub const MAX_FRAGMENTS: u32 = 1024;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer ALBEDO_NODE_SCALE,
+    integer FRACTION_BITS,
+    integer FRACTION_ONE = 1 << FRACTION_BITS,
+    integer FULL_WEIGHT,
+    integer MAX_FRAGMENTS,
+    integer NO_BLOCK,
+];
 
 /// What a prediction adds to each count, beside a share.
 pub const ROOM: u32 = 64;
@@ -68,6 +79,24 @@ pub struct OctreeParams {
     pub pad: u32,
     pub levels: [OctreeLevel; LEVEL_SLOTS],
 }
+
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(OctreeLevel, "shared/octree.wgsl", "OctreeLevel", occupied_word, blocks_word, first_block, first_node),
+    mirror!(
+        OctreeParams,
+        "shared/octree.wgsl",
+        "OctreeParams",
+        depth,
+        dense_level,
+        block_count,
+        leaf_block_count,
+        inner_node_count,
+        leaf_count,
+        dense_node_count,
+        pad,
+        levels
+    ),
+];
 
 /// Words of one bit a node at a level.
 pub fn mask_words(level: u32) -> u32 {

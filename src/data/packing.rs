@@ -2,8 +2,14 @@
 
 use glam::DVec3;
 
+use crate::gpu::{Constant, constants};
+
 /// Largest magnitude of a packed normal component: 10 bits, signed, symmetric.
 pub const NORMAL_MAX: i32 = 511;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer NORMAL_MAX = NORMAL_MAX as u32,
+];
 
 /// Packs a normal as three biased 10-bit integers (x lowest), so that sums of normals are sums of
 /// unsigned integers. A zero or non-finite vector packs as zero length.

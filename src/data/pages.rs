@@ -13,6 +13,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::gpu::{Constant, Mirror, constants, mirror};
+
 /// Slots of a segment: the unit that changes owners.
 pub const SEGMENT_SLOTS: u32 = 256;
 /// Segments of a page: 1 MiB of world voxels.
@@ -20,6 +22,10 @@ pub const PAGE_SEGMENTS: u32 = 256;
 pub const WORLD_VOXEL_BYTES: u64 = 16;
 /// Threads between two entries of the hint table, by which a thread finds its work item.
 pub const WORK_HINT_THREADS: u32 = 64;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer WORK_HINT_THREADS,
+];
 
 /// Which free segment is taken first. Results do not depend on it; tests show that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -122,6 +128,9 @@ pub struct WorkItem {
     /// Object number in the scene.
     pub object: u32,
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part, object)];
 
 /// A part that has something to move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

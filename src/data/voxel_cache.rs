@@ -20,25 +20,20 @@ use serde::{Deserialize, Serialize};
 
 use super::grid::morton_key;
 use super::packing::{NORMAL_MAX, unpack_position};
+use crate::gpu::{Constant, constants};
 
 /// Cells along an axis that a 10-bit position can address; larger objects are tiled.
 pub const TILE_CELLS: i32 = 1024;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer TILE_CELLS = TILE_CELLS as u32,
+];
 
 /// What the joint weights of a voxel sum to.
 pub const JOINT_WEIGHT_SUM: u32 = 255;
 
 /// No cell lies farther from the lattice's origin along an axis.
 pub const MAX_COORDINATE_CELLS: i32 = 1 << 30;
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum VoxelizationMode {
-    /// 6-separating: the thinnest layer no axial step passes through.
-    #[default]
-    Thin,
-    /// Every cell a triangle touches.
-    Conservative,
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]

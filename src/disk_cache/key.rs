@@ -13,9 +13,9 @@ use bytemuck::NoUninit;
 use image::RgbaImage;
 use rayon::prelude::*;
 
-use crate::data::voxel_cache::VoxelizationMode;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{AlphaMode, Material, Primitive, Texture, TextureRef, Wrap};
+use crate::settings::VoxelizationMode;
 use crate::stages::voxelize::{ALGORITHM_VERSION, VoxelizeInput, VoxelizePart, textures_read};
 
 /// Equal keys mean equal caches.

@@ -168,7 +168,7 @@ impl Method {
     fn new(prepared: &Prepared, shot: &Shot, settings: &Settings, wanted_for: WantedFor) -> Result<Self, EngineError> {
         let (lighting, anchor) = (&settings.lighting, settings.discretization.anchor);
         let matrices = prepared.fold((&settings.motion, &shot.pose), anchor, &shot.hidden);
-        let emits = lights::emits(prepared, lighting);
+        let emits = prepared.emits(lighting);
         let lights = posed_lights(&prepared.scene, &shot.pose, lighting, &shot.shown, emits);
         let shadow_maps = super::parts::shadow_maps::layouts(prepared, &lights, settings);
         let facts = facts(prepared, &matrices, &shot.hidden, settings.cone_tracing.glossy_roughness);

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
 use super::reflect::causes;
-use super::{Counters, Gpu, GpuError, lock};
+use super::{Counters, Gpu, GpuError, Shaders, lock};
 
 /// Older ones end a shader's loops after 65 535 iterations without a word.
 const MIN_MESA_MAJOR: u32 = 24;
@@ -19,7 +19,7 @@ pub(super) struct Health {
 impl Gpu {
     /// A device without a window: the best adapter, or the first whose name contains
     /// `adapter_name` (case does not matter).
-    pub fn headless(adapter_name: Option<&str>) -> Result<Self, GpuError> {
+    pub fn headless(shaders: &'static Shaders, adapter_name: Option<&str>) -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
         let adapter = &Self::choose_adapter(adapters, adapter_name)?;
@@ -27,7 +27,7 @@ impl Gpu {
         let opened = pollster::block_on(adapter.request_device(&descriptor));
         let (device, queue) =
             opened.map_err(|error| GpuError::NoDevice { adapter: adapter.get_info().name, cause: causes(&error) })?;
-        Ok(Self::from_wgpu(adapter, device, queue))
+        Ok(Self::from_wgpu(shaders, adapter, device, queue))
     }
 
     /// The best of these adapters, or the first whose name contains `name` (case does not matter).
@@ -40,7 +40,12 @@ impl Gpu {
     }
 
     /// Takes over a device that somebody else opened, best with [`Gpu::device_descriptor`].
-    pub fn from_wgpu(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+    pub fn from_wgpu(
+        shaders: &'static Shaders,
+        adapter: &wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+    ) -> Self {
         let health = Arc::new(Health::default());
         let on_lost = Arc::clone(&health);
         device.set_device_lost_callback(move |reason, message| {
@@ -57,6 +62,7 @@ impl Gpu {
             limits: device.limits(),
             device,
             queue,
+            shaders,
             default_workgroup_size: None,
             kernels: Mutex::default(),
             raster_kernels: Mutex::default(),

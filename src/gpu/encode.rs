@@ -9,6 +9,7 @@ use bytemuck::{Pod, Zeroable};
 use wgpu_profiler::{GpuProfiler, GpuProfilerQuery, GpuProfilerSettings};
 
 use super::bindings::buffer_binding;
+use super::mirror::{Mirror, mirror};
 use super::read_back::ReadBack;
 use super::recorder::{Command, Pass, UNIFORM_ALIGNMENT};
 use super::{Gpu, GpuBuffer, GpuError, lock, raster};
@@ -33,6 +34,8 @@ pub struct Threads {
     pub first: u32,
     pub end: u32,
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(Threads, "shared/threads.wgsl", "Threads", first, end)];
 
 /// Buffers and queries that one job at a time needs; kept for the next.
 pub(super) struct Scratch {

@@ -11,7 +11,7 @@
 mod bindings;
 mod buffer;
 mod command;
-pub mod constants;
+mod constant;
 mod cost;
 mod counted;
 mod device;
@@ -19,14 +19,14 @@ mod encode;
 mod error;
 mod job;
 mod kernel;
-pub mod layouts;
 mod memory;
+mod mirror;
 mod pass;
 mod raster;
 mod read_back;
 mod recorder;
 mod reflect;
-pub mod shaders;
+mod shaders;
 mod texture;
 
 use std::collections::{BTreeMap, HashMap};
@@ -35,21 +35,25 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 pub use bindings::{BindingKind, KernelBinding};
 pub use buffer::{GpuBuffer, PendingRead};
+pub(crate) use constant::constants;
+pub use constant::{Constant, Number};
 pub use cost::KernelTiming;
 pub use counted::Counted;
-pub use encode::Threads;
+pub use encode::{MIRRORS, Threads};
 pub use error::GpuError;
 pub use job::{Job, JobState};
 pub use kernel::Kernel;
 pub use memory::BufferUse;
+pub use mirror::Mirror;
+pub(crate) use mirror::mirror;
 pub use pass::PassBuilder;
 pub use raster::{DEPTH_FORMAT, RasterKernel, RasterTarget};
 pub use recorder::{Recorder, Uniform};
 pub use reflect::parse;
+pub use shaders::{Shaders, Source};
 pub use texture::GpuTexture;
 
 use device::Health;
-use shaders::Source;
 
 /// One device, what was compiled for it and what lives on it.
 pub struct Gpu {
@@ -57,6 +61,7 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     pub info: wgpu::AdapterInfo,
     pub limits: wgpu::Limits,
+    shaders: &'static Shaders,
     default_workgroup_size: Option<u32>,
     kernels: Mutex<HashMap<KernelKey, Arc<Kernel>>>,
     raster_kernels: Mutex<HashMap<(&'static str, &'static str), Arc<RasterKernel>>>,
@@ -87,14 +92,14 @@ impl Gpu {
         let mut kernels = lock(&self.kernels);
         let kernel = kernels.entry((path.to_owned(), overrides)).or_insert_with(|| {
             let name = path.trim_end_matches(".wgsl");
-            Arc::new(Kernel::compile(self, Source::embedded(path), name, constants))
+            Arc::new(Kernel::compile(self, self.shaders.embedded(path), name, constants))
         });
         Arc::clone(kernel)
     }
 
     /// A kernel from text, which may import files of `shaders/`. Not cached.
     pub fn kernel_from_source(&self, name: &str, wgsl: &str, constants: &[(&str, f64)]) -> Arc<Kernel> {
-        Arc::new(Kernel::compile(self, Source::inline(name, wgsl), name, constants))
+        Arc::new(Kernel::compile(self, self.shaders.inline(name, wgsl), name, constants))
     }
 
     pub fn counters(&self) -> Counters {

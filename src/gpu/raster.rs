@@ -55,7 +55,7 @@ impl Gpu {
 }
 
 fn compile(gpu: &Gpu, path: &str, vertex: &str, colors: &[wgpu::TextureFormat]) -> RasterKernel {
-    let compiled = Source::embedded(path).and_then(|source| {
+    let compiled = gpu.shaders.embedded(path).and_then(|source| {
         let bindings = reflect(&source, vertex)?;
         Ok((bindings, create_pipeline(gpu, &source, vertex, colors)?))
     });

@@ -6,11 +6,37 @@
 
 use std::collections::BTreeSet;
 
-use super::GpuError;
-use super::constants;
+use super::{Constant, GpuError};
 
-/// Path below `shaders/` and text of every shader.
-pub const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+/// What kernels are compiled from.
+#[derive(Debug)]
+pub struct Shaders {
+    /// Path below `shaders/` and text of every shader.
+    pub files: &'static [(&'static str, &'static str)],
+    /// What `#import constants` stands for, list by list.
+    pub constants: &'static [&'static [Constant]],
+}
+
+impl Shaders {
+    /// A shader of `shaders/`, imports resolved.
+    pub fn embedded(&self, path: &str) -> Result<Source, GpuError> {
+        let Some(text) = self.file(path) else {
+            return Err(GpuError::Shader { place: path.to_owned(), cause: "there is no such shader".to_owned() });
+        };
+        self.inline(path, text)
+    }
+
+    /// Text that may import files of `shaders/`; `path` is what errors name it.
+    pub fn inline(&self, path: &str, text: &str) -> Result<Source, GpuError> {
+        let mut source = Source { path: path.to_owned(), wgsl: String::new(), lines: Vec::new() };
+        source.append(self, (path, text), &mut BTreeSet::from([path.to_owned()]))?;
+        Ok(source)
+    }
+
+    fn file(&self, path: &str) -> Option<&'static str> {
+        self.files.iter().find(|(name, _)| *name == path).map(|(_, text)| *text)
+    }
+}
 
 /// WGSL without imports.
 #[derive(Clone, Debug)]
@@ -22,21 +48,6 @@ pub struct Source {
 }
 
 impl Source {
-    /// A shader of `shaders/`, imports resolved.
-    pub fn embedded(path: &str) -> Result<Self, GpuError> {
-        let Some(text) = file(path) else {
-            return Err(GpuError::Shader { place: path.to_owned(), cause: "there is no such shader".to_owned() });
-        };
-        Self::inline(path, text)
-    }
-
-    /// Text that may import files of `shaders/`; `path` is what errors name it.
-    pub fn inline(path: &str, text: &str) -> Result<Self, GpuError> {
-        let mut source = Self { path: path.to_owned(), wgsl: String::new(), lines: Vec::new() };
-        source.append(path, text, &mut BTreeSet::from([path.to_owned()]))?;
-        Ok(source)
-    }
-
     /// `file:line` of a line number (from 1) of the combined text.
     pub fn place(&self, line_number: usize) -> String {
         match self.lines.get(line_number.wrapping_sub(1)) {
@@ -45,7 +56,12 @@ impl Source {
         }
     }
 
-    fn append(&mut self, path: &str, text: &str, seen: &mut BTreeSet<String>) -> Result<(), GpuError> {
+    fn append(
+        &mut self,
+        shaders: &Shaders,
+        (path, text): (&str, &str),
+        seen: &mut BTreeSet<String>,
+    ) -> Result<(), GpuError> {
         for (index, line) in text.lines().enumerate() {
             let Some(import) = line.trim_start().strip_prefix("#import ").map(str::trim) else {
                 self.push(path, index + 1, line);
@@ -55,9 +71,10 @@ impl Source {
                 continue;
             }
             if import == "constants" {
-                constants::wgsl().lines().for_each(|line| self.push(path, index + 1, line));
-            } else if let Some(text) = file(import) {
-                self.append(import, text, seen)?;
+                let constants = shaders.constants.iter().copied().flatten();
+                constants.for_each(|constant| self.push(path, index + 1, &constant.wgsl()));
+            } else if let Some(text) = shaders.file(import) {
+                self.append(shaders, (import, text), seen)?;
             } else {
                 let cause = format!("#import {import}: there is no such shader");
                 return Err(GpuError::Shader { place: format!("{path}:{}", index + 1), cause });
@@ -71,8 +88,4 @@ impl Source {
         self.wgsl.push('\n');
         self.lines.push((path.to_owned(), line_number));
     }
-}
-
-fn file(path: &str) -> Option<&'static str> {
-    FILES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text)
 }

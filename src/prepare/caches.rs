@@ -8,10 +8,11 @@ use std::sync::{Arc, OnceLock};
 use rayon::prelude::*;
 
 use super::{PrepareError, Prepared, PreparedObject, lattice};
-use crate::data::voxel_cache::{VoxelCache, VoxelizationMode};
+use crate::data::voxel_cache::VoxelCache;
 use crate::disk_cache::{ContentKey, DiskCache, Lookup, TextureHashes};
 use crate::progress::Progress;
 use crate::scene::{Material, Mesh, Motion, Scene};
+use crate::settings::VoxelizationMode;
 use crate::stages::voxelize::{self, TexturePyramids, VoxelizeError, VoxelizeInput, VoxelizePart};
 
 /// Where voxels are looked for before an object is voxelized, in this order.

@@ -9,18 +9,20 @@ mod fold;
 mod framing;
 mod hidden;
 mod lattice;
+mod lights;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
 use crate::data::grid::Grid;
-use crate::data::voxel_cache::{Tile, VoxelCache, VoxelizationMode};
+use crate::data::voxel_cache::{Tile, VoxelCache};
 use crate::disk_cache::TextureHashes;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::bounds::Aabb;
 use crate::scene::{Motion, Object, Scene};
 use crate::settings::Discretization;
+use crate::settings::VoxelizationMode;
 use crate::stages::voxelize::{TexturePyramids, VoxelizeError};
 
 pub use caches::{CacheOrigins, Stores};
@@ -28,6 +30,7 @@ use caches::{Wanted, Work};
 pub use exact::{ExactError, ExactSurface, ExactVoxel, ExactVoxels};
 pub use fold::{FrameMatrices, MotionError};
 pub use lattice::Lattice;
+pub use lights::LightsError;
 
 /// A scene made ready for a grid. Immutable; shared by window, engine and background work.
 #[derive(Debug)]

@@ -3,8 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::lighting::{check_direction, check_intensity};
-use crate::scene::LightKind;
+use crate::scene::{Light, LightKind};
 
 /// A light of the scene as it shall be. Place and direction stay those of its node.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -95,6 +94,12 @@ impl LightEdit {
     pub const DIRECTIONAL_LUX: f64 = 10_000.0;
     pub const POINT_CANDELA: f64 = 1_000.0;
 
+    /// A light of the file as it is without an edit.
+    pub fn of(light: &Light) -> Self {
+        let color = light.color.map(f64::from);
+        Self { on: true, kind: light.kind, color, intensity: f64::from(light.intensity) }
+    }
+
     /// White, on, as bright as lights of its kind are at first.
     pub fn new(kind: LightKind) -> Self {
         let intensity = match kind {
@@ -161,6 +166,22 @@ impl AddedLight {
         }
         Ok(())
     }
+}
+
+pub(super) fn check_intensity(name: &str, color: [f64; 3], intensity: f64) -> Result<(), String> {
+    let is_amount = |value: &f64| value.is_finite() && *value >= 0.0;
+    if color.iter().chain([&intensity]).all(is_amount) {
+        return Ok(());
+    }
+    Err(format!("colour {color:?} and intensity {intensity} of {name} must be finite and not negative"))
+}
+
+pub(super) fn check_direction(name: &str, direction: [f64; 3]) -> Result<(), String> {
+    let length = glam::DVec3::from_array(direction).length();
+    if length.is_finite() && length > 0.0 {
+        return Ok(());
+    }
+    Err(format!("{name} shines along {direction:?}, which is no direction"))
 }
 
 #[cfg(test)]

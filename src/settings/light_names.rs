@@ -5,9 +5,8 @@
 use std::collections::BTreeSet;
 
 use super::Lighting;
-use super::lighting::LightPart;
+use super::lighting::{LightEdit, LightPart};
 use super::listed_names::listed;
-use crate::lights::unedited;
 use crate::scene::Scene;
 
 /// What is to become of the lights that have a name.
@@ -49,7 +48,7 @@ impl Lighting {
                 notes.push(format!("{}: {count} lights are called \"{name}\"; all of them are changed", scene.name));
             }
             for (node, light) in nodes {
-                let edit = edits.entry(node).or_insert_with(|| unedited(light));
+                let edit = edits.entry(node).or_insert_with(|| LightEdit::of(light));
                 for part in &change.parts {
                     edit.set(*part).map_err(impossible)?;
                 }

@@ -7,6 +7,7 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 pub use super::light_edit::{AddedLight, LightEdit, LightPart};
+use super::light_edit::{check_direction, check_intensity};
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -112,6 +113,12 @@ pub enum Opacity {
     Directional,
 }
 
+impl Opacity {
+    pub fn is_directional(self) -> bool {
+        self == Self::Directional
+    }
+}
+
 impl Lighting {
     pub const SHADOW_MAPS_PX: [u32; 5] = [512, 1024, 2048, 4096, 8192];
     pub const MAX_BOUNCES: u32 = 64;
@@ -174,20 +181,4 @@ impl Lighting {
         }
         Ok(())
     }
-}
-
-pub(super) fn check_intensity(name: &str, color: [f64; 3], intensity: f64) -> Result<(), String> {
-    let is_amount = |value: &f64| value.is_finite() && *value >= 0.0;
-    if color.iter().chain([&intensity]).all(is_amount) {
-        return Ok(());
-    }
-    Err(format!("colour {color:?} and intensity {intensity} of {name} must be finite and not negative"))
-}
-
-pub(super) fn check_direction(name: &str, direction: [f64; 3]) -> Result<(), String> {
-    let length = glam::DVec3::from_array(direction).length();
-    if length.is_finite() && length > 0.0 {
-        return Ok(());
-    }
-    Err(format!("{name} shines along {direction:?}, which is no direction"))
 }

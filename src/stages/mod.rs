@@ -10,7 +10,10 @@ pub mod fill;
 pub mod light;
 pub mod mesh;
 pub mod sample;
+mod shaders;
 pub mod surface;
 pub mod transform;
 pub mod view;
 pub mod voxelize;
+
+pub use shaders::{MIRRORS, SHADERS};

@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use octolume::gpu::Gpu;
+use octolume::stages::SHADERS;
 
 static GPU: LazyLock<Gpu> = LazyLock::new(open);
 
@@ -15,5 +16,5 @@ pub fn gpu() -> &'static Gpu {
 /// The adapter that `OCTOLUME_TEST_ADAPTER` names, else the best.
 pub fn open() -> Gpu {
     let name = std::env::var("OCTOLUME_TEST_ADAPTER").ok();
-    Gpu::headless(name.as_deref()).unwrap_or_else(|error| panic!("{error}"))
+    Gpu::headless(&SHADERS, name.as_deref()).unwrap_or_else(|error| panic!("{error}"))
 }

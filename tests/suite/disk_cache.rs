@@ -5,11 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use octolume::data::voxel_cache::VoxelizationMode;
 use octolume::disk_cache::DiskCache;
 use octolume::prepare::{CacheOrigins, PrepareError, Prepared, Stores, prepare, prepare_with};
 use octolume::progress::Progress;
 use octolume::scene::{Scene, builtin, load};
+use octolume::settings::VoxelizationMode;
 use octolume::settings::{Discretization, Filter, VoxelAnchor};
 use tempfile::TempDir;
 

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::{Affine2, DVec3, Vec2, Vec4};
-use octolume::data::voxel_cache::VoxelizationMode::{self, Conservative, Thin};
 use octolume::disk_cache::{ContentKey, DiskCache, Lookup, TextureHashes};
 use octolume::progress::Progress;
 use octolume::scene::{AlphaMode, Material, TextureRef, Wrap};
+use octolume::settings::VoxelizationMode::{self, Conservative, Thin};
 use octolume::stages::voxelize::{ALGORITHM_VERSION, TexturePyramids, VoxelizeInput, voxelize};
 
 use crate::voxelization::object::{Object, square, texture};

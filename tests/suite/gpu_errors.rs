@@ -80,6 +80,6 @@ fn more_threads_than_32_bits_are_refused() {
 
 #[test]
 fn an_absent_adapter_is_a_sentence() {
-    let Err(error) = Gpu::headless(Some("no such adapter")) else { panic!("found one") };
+    let Err(error) = Gpu::headless(&octolume::stages::SHADERS, Some("no such adapter")) else { panic!("found one") };
     assert!(error.to_string().starts_with("no GPU adapter has \"no such adapter\" in its name; "), "{error}");
 }

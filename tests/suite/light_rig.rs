@@ -79,7 +79,7 @@ impl LightRig {
 
     /// The whole store, from irradiance and emission of the leaves by slot.
     pub fn stored(&self, gpu: &Gpu, direct: &[[f32; 3]], emission: &[[f32; 3]], opacity: Opacity) -> Vec<[f32; 4]> {
-        let bytes = light_bytes(&self.built.params, opacity);
+        let bytes = light_bytes(&self.built.params, opacity.is_directional());
         let light = buffer(gpu, "light", bytes / 4);
         gpu.write(&light, 0, &vec![0xff; bytes as usize]).expect("fits");
         let direct = upload(gpu, "direct", direct);

@@ -26,6 +26,7 @@ mod cones;
 mod counted_surfaces;
 mod device;
 mod direct_light;
+mod direction;
 mod disk_cache;
 mod disk_cache_folder;
 mod disk_cache_key;

@@ -4,8 +4,8 @@ use std::sync::LazyLock;
 
 use octolume::data::octree::OctreeParams;
 use octolume::gpu::Gpu;
-use octolume::gpu::shaders::FILES;
 use octolume::settings::Filter;
+use octolume::stages::SHADERS;
 use octolume::stages::fill::gather_ref::Fragment;
 use proptest::prelude::RngExt;
 
@@ -194,7 +194,7 @@ fn a_build_that_needs_more_than_its_buffers_hold_equals_one_in_large_buffers() {
 fn no_kernel_of_the_build_waits_for_another_thread() {
     let is_built =
         |path: &str| ["build/", "fill/", "average/", "shared/"].iter().any(|folder| path.starts_with(folder));
-    for (path, text) in FILES.iter().filter(|(path, _)| is_built(path)) {
+    for (path, text) in SHADERS.files.iter().filter(|(path, _)| is_built(path)) {
         assert!(!text.contains("atomicCompareExchange"), "{path} takes a lock");
         for line in text.lines().filter(|line| line.trim_start().starts_with("while") || line.contains("loop")) {
             assert!(!line.contains("atomic"), "{path} waits: {line}");

@@ -283,7 +283,7 @@ impl Counted {
         let mut settings = Settings::default();
         settings.discretization.grid = 64;
         let prepared = prepared(scene, &settings);
-        let gpu = Gpu::headless(None).unwrap_or_else(|error| panic!("{error}"));
+        let gpu = Gpu::headless(&octolume::stages::SHADERS, None).unwrap_or_else(|error| panic!("{error}"));
         let mut engine = Engine::new(Arc::new(gpu));
         engine.set_prepared(Some(Arc::new(prepared)));
         Self { engine, settings, before: Counters::default() }

@@ -2,8 +2,8 @@
 //! `shared/ray_walk.wgsl` on the GPU against the reference's sorted crossings.
 
 use glam::{DVec3, IVec3, Vec3};
-use octolume::gpu::shaders::FILES;
 use octolume::gpu::{Job, Recorder};
+use octolume::stages::SHADERS;
 use octolume::stages::view::march_ref::crossings;
 use proptest::prelude::*;
 
@@ -152,7 +152,7 @@ fn directions_with_zeros_and_almost_zeros() {
 /// Defects on purpose: the assertions of these tests must see them.
 #[test]
 fn a_wrong_walk_is_caught() {
-    let walk_file = FILES.iter().find(|(path, _)| *path == "shared/ray_walk.wgsl").expect("embedded").1;
+    let walk_file = SHADERS.files.iter().find(|(path, _)| *path == "shared/ray_walk.wgsl").expect("embedded").1;
     let slanted: Vec<_> = (0..40_u16)
         .map(|i| f32::from(i) * 0.37)
         .map(|a| (Vec3::new(-4.0, 3.0, 5.0), Vec3::new(1.0, a.sin(), a.cos() * 0.5).normalize()))

@@ -4,9 +4,8 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use octolume::gpu::layouts::{MIRRORS, Mirror};
-use octolume::gpu::shaders::{FILES, Source};
-use octolume::gpu::{constants, parse};
+use octolume::gpu::{Mirror, Source, parse};
+use octolume::stages::{MIRRORS, SHADERS};
 use wgpu::naga;
 
 /// wgpu's default, and the least that any adapter gives a stage.
@@ -14,8 +13,8 @@ const MAX_STORAGE_BUFFERS: usize = 8;
 
 /// Every shader that runs by itself, put together as at run time.
 fn programs() -> impl Iterator<Item = (Source, naga::Module, naga::valid::ModuleInfo)> {
-    FILES.iter().filter(|(path, _)| !path.starts_with("shared/")).map(|(path, _)| {
-        let source = Source::embedded(path).unwrap_or_else(|error| panic!("{error}"));
+    SHADERS.files.iter().filter(|(path, _)| !path.starts_with("shared/")).map(|(path, _)| {
+        let source = SHADERS.embedded(path).unwrap_or_else(|error| panic!("{error}"));
         let (module, info) = parse(&source).unwrap_or_else(|error| panic!("{error}"));
         (source, module, info)
     })
@@ -116,15 +115,19 @@ fn defining_file(source: &Source, name: &str) -> String {
     source.place(line + 1).rsplit_once(':').expect("file:line").0.to_owned()
 }
 
+fn mirrors() -> impl Iterator<Item = &'static Mirror> {
+    MIRRORS.iter().copied().flatten()
+}
+
 fn mirror_of(found: &WgslStruct) -> Option<&'static Mirror> {
-    MIRRORS.iter().find(|mirror| mirror.file == found.file && mirror.wgsl_name == found.name)
+    mirrors().find(|mirror| mirror.file == found.file && mirror.wgsl_name == found.name)
 }
 
 #[test]
 fn every_bound_struct_has_a_rust_mirror_with_the_same_offsets() {
     for found in bound_structs() {
         let Some(mirror) = mirror_of(&found) else {
-            panic!("{}: struct {} has no mirror! in src/gpu/layouts.rs", found.file, found.name);
+            panic!("{}: struct {} has no mirror! beside a Rust struct", found.file, found.name);
         };
         let fields: Vec<_> = mirror.fields.iter().map(|(name, offset)| ((*name).to_owned(), *offset)).collect();
         assert_eq!(fields, found.fields, "{} and {} of {}", mirror.rust_name, found.name, found.file);
@@ -135,7 +138,7 @@ fn every_bound_struct_has_a_rust_mirror_with_the_same_offsets() {
 #[test]
 fn every_mirror_is_bound_somewhere() {
     let found = bound_structs();
-    for mirror in MIRRORS {
+    for mirror in mirrors() {
         let bound = found.iter().any(|s| s.file == mirror.file && s.name == mirror.wgsl_name);
         assert!(bound, "{} mirrors {} of {}, which no shader binds", mirror.rust_name, mirror.wgsl_name, mirror.file);
     }
@@ -143,9 +146,10 @@ fn every_mirror_is_bound_somewhere() {
 
 #[test]
 fn shared_constants_are_in_no_shader_file_and_have_one_name_each() {
-    let names: BTreeSet<_> = constants::CONSTANTS.iter().map(|(name, _)| *name).collect();
-    assert_eq!(names.len(), constants::CONSTANTS.len());
-    for (path, text) in FILES {
+    let all: Vec<&str> = SHADERS.constants.iter().copied().flatten().map(|constant| constant.name).collect();
+    let names: BTreeSet<&str> = all.iter().copied().collect();
+    assert_eq!(names.len(), all.len());
+    for (path, text) in SHADERS.files {
         for name in &names {
             let declares = |line: &str| line.trim_start().starts_with(&format!("const {name}:"));
             assert!(!text.lines().any(declares), "{path} declares {name} again");
@@ -156,7 +160,7 @@ fn shared_constants_are_in_no_shader_file_and_have_one_name_each() {
 #[test]
 fn imports_come_once_and_constants_with_their_values() {
     let text = "#import constants\n#import shared/threads.wgsl\n#import shared/threads.wgsl\n#import constants\nx";
-    let source = Source::inline("test", text).expect("resolves");
+    let source = SHADERS.inline("test", text).expect("resolves");
     assert_eq!(source.wgsl.matches("struct Threads").count(), 1);
     assert_eq!(source.wgsl.matches("const NORMAL_MAX: u32 = 511u;").count(), 1);
     let last = source.wgsl.lines().count();

@@ -9,7 +9,7 @@ use octolume::accuracy::alone;
 use octolume::accuracy::posed_triangles::PosedTriangles;
 use octolume::accuracy::shadows::{LeafPlaces, ShadowError, TrueShadows, spread};
 use octolume::engine::Engine;
-use octolume::lights::{KnownLight, LightSource, Shines, known_in, posed_lights};
+use octolume::lights::{KnownLight, LightSource, Shines, posed_lights};
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{AlphaMode, LightKind, LocalTransform, Material, Node, Scene, Texture, TextureRef, Trs, Wrap};
@@ -222,12 +222,12 @@ fn one_light_alone_is_what_is_left() {
     let mut settings = under_sun([0.0, -1.0, 0.0]);
     settings.lighting.added = under_bulb().lighting.added;
     settings.lighting.sky_nits = [1.0; 3];
-    let known = known_in(&prepared, &settings).expect("known");
+    let known = prepared.known_lights(&settings).expect("known");
     assert_eq!(known.len(), 3);
     for light in &known {
         let lighting = alone(&settings.lighting, &known, light.source);
         assert_eq!((lighting.sky_nits, lighting.emission), ([0.0; 3], 0.0));
-        let left = known_in(&prepared, &Settings { lighting, ..settings.clone() }).expect("known");
+        let left = prepared.known_lights(&Settings { lighting, ..settings.clone() }).expect("known");
         let shining: Vec<(LightSource, LightEdit)> =
             left.iter().filter(|light| light.shines == Shines::Yes).map(|light| (light.source, light.light)).collect();
         assert_eq!(shining, [(light.source, light.light)]);

@@ -7,11 +7,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DVec3, IVec3};
-use octolume::data::voxel_cache::VoxelizationMode;
 use octolume::engine::Engine;
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::Scene;
+use octolume::settings::VoxelizationMode;
 use octolume::settings::{Discretization, Filter, Hidden, Settings};
 
 use crate::device::open;

@@ -8,7 +8,7 @@ use octolume::accuracy::path_tracer::{Options, PixelSampling, Reflection, Scene 
 use octolume::accuracy::posed_triangles::{PosedTriangles, SurfacePoint};
 use octolume::accuracy::ray_tree::Segment;
 use octolume::data::surface_image::SurfaceTexel;
-use octolume::lights::{emits, posed_lights};
+use octolume::lights::posed_lights;
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{self, AlphaMode, Material, OrbitCamera};
@@ -149,7 +149,7 @@ fn direct_light_of_real_scenes_is_the_path_tracers() {
 fn drawn_light(prepared: &Prepared, settings: &Settings) -> Vec<f64> {
     let shot = shot(prepared, settings);
     let shown = settings.visibility.shown_nodes(&prepared.scene).expect("all");
-    let emits = emits(prepared, &settings.lighting);
+    let emits = prepared.emits(&settings.lighting);
     let lights = posed_lights(&prepared.scene, &shot.pose, &settings.lighting, &shown, emits);
     let found = shot.lit(&shot.drawn(), &lights, &Hiding::Map(1024));
     found.iter().map(|rgb| f64::from(rgb[1])).collect()

@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat4, DQuat, DVec3, IVec3};
 use octolume::data::pages::SegmentOrder;
-use octolume::data::voxel_cache::{TILE_CELLS, VoxelizationMode};
+use octolume::data::voxel_cache::TILE_CELLS;
 use octolume::engine::Engine;
 use octolume::prepare::{Prepared, PreparedPart, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{Interpolation, Mesh, Primitive, Property, Scene, Skin, Trs};
+use octolume::settings::VoxelizationMode;
 use octolume::settings::{Discretization, Filter, Hidden, MotionSettings, Settings, VoxelAnchor};
 use octolume::stages::transform::{rigid_ref, skinned_ref};
 use octolume::stages::voxelize::voxelize_cells;

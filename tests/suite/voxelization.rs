@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DQuat, DVec3, I64Vec3, IVec3};
 use octolume::data::grid::morton_key;
-use octolume::data::voxel_cache::VoxelizationMode::{Conservative, Thin};
+use octolume::settings::VoxelizationMode::{Conservative, Thin};
 use octolume::stages::voxelize::{VoxelizeError, voxelize_cells};
 
 pub mod object;

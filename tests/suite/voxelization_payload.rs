@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use glam::{DVec3, IVec3, Vec2};
 use octolume::data::packing::{pack_normal, unpack_normal};
-use octolume::data::voxel_cache::VoxelizationMode::{Conservative, Thin};
 use octolume::data::voxel_cache::{TILE_CELLS, VoxelCache, VoxelJoints, VoxelizeReport};
 use octolume::progress::{Cancelled, Progress};
 use octolume::scene::{AlphaMode, Material};
+use octolume::settings::VoxelizationMode::{Conservative, Thin};
 use octolume::stages::voxelize::{TexturePyramids, VoxelizeError, VoxelizeInput, VoxelizePart, voxelize};
 
 use crate::voxelization::object::{FIRST, MODES, Object, square, texture, validate};

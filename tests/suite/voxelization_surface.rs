@@ -1,8 +1,8 @@
 //! What a voxel shows: colours, coverage, metal, roughness and emission, averaged in linear light.
 
 use glam::{DVec2, DVec3, IVec3, Vec2, Vec4};
-use octolume::data::voxel_cache::VoxelizationMode::{Conservative, Thin};
 use octolume::scene::{AlphaMode, Material, Texture, TextureRef, Wrap};
+use octolume::settings::VoxelizationMode::{Conservative, Thin};
 use octolume::stages::voxelize::{Texels, TexturePyramids};
 
 use crate::voxelization::object::{FIRST, albedo, square, texture};

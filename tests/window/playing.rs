@@ -103,7 +103,7 @@ fn what_is_measured_is_of_the_pose_that_is_drawn_or_said_to_be_on_its_way() {
     let settings = settings(|s| s.look.accuracy = true);
     let prepared = courtyard(&settings);
     let mut window = playing(settings.clone());
-    let gpu = octolume::gpu::Gpu::headless(None).expect("a device");
+    let gpu = octolume::gpu::Gpu::headless(&octolume::stages::SHADERS, None).expect("a device");
     let mut fresh = Engine::new(Arc::new(gpu));
     for _ in 0..20 {
         for _ in 0..4 {

@@ -29,8 +29,8 @@ pub use film::{Film, PixelSums, StandardError, Term};
 
 use super::posed_triangles::{PosedSurface, PosedTriangles};
 use crate::disk_cache::{ContentKey, TextureHashes};
-use crate::lights::{LightsError, emits, posed_lights};
-use crate::prepare::Prepared;
+use crate::lights::posed_lights;
+use crate::prepare::{LightsError, Prepared};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Material, Pose};
 use crate::settings::Settings;
@@ -100,7 +100,7 @@ impl<'a> Scene<'a> {
         let shown = settings.visibility.shown_nodes(&prepared.scene)?;
         let lighting = &settings.lighting;
         let readers = readers(prepared, &triangles, &pose, (lighting.emission, options.reflection));
-        let lights = posed_lights(&prepared.scene, &pose, lighting, &shown, emits(prepared, lighting));
+        let lights = posed_lights(&prepared.scene, &pose, lighting, &shown, prepared.emits(lighting));
         let grid = &prepared.grid;
         let camera = prepared.camera(settings, &pose, options.size_px);
         Ok(Self {

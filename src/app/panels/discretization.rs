@@ -4,7 +4,7 @@ use egui::{ComboBox, DragValue, Slider, Ui};
 
 use super::{choice, control};
 use crate::app::commands::Command;
-use crate::data::voxel_cache::VoxelizationMode;
+use crate::settings::VoxelizationMode;
 use crate::settings::{Discretization, VoxelAnchor};
 
 /// `span`: δ of the grid on screen, which "auto" has chosen or the setting says.

@@ -5,7 +5,7 @@ use anyhow::{Context, bail};
 use octolume::accuracy::alone;
 use octolume::accuracy::posed_triangles::{PosedTriangles, SurfacePoint};
 use octolume::accuracy::shadows::{LeafPlaces, POINTS, ShadowError, TrueShadows, spread};
-use octolume::lights::{self, KnownLight, Shines, posed_lights};
+use octolume::lights::{KnownLight, Shines, posed_lights};
 use octolume::settings::Settings;
 use octolume::settings::lighting::Shadows;
 use serde::Serialize;
@@ -73,7 +73,7 @@ pub fn compare(session: &mut Session, settings: &Settings, case: &Case) -> anyho
     let hidden = prepared.hidden(&settings.visibility)?;
     let triangles = PosedTriangles::new(&prepared, &settings.motion, &hidden)?;
     output::warnings(&triangles.warnings);
-    let scene = Scene { points: spread(&triangles, POINTS), triangles, known: lights::known_in(&prepared, settings)? };
+    let scene = Scene { points: spread(&triangles, POINTS), triangles, known: prepared.known_lights(settings)? };
     let shining: Vec<&KnownLight> = scene.known.iter().filter(|light| light.shines == Shines::Yes).collect();
     if shining.is_empty() {
         bail!("{}: no light shines that could cast a shadow", prepared.scene.name);

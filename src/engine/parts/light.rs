@@ -129,7 +129,7 @@ impl Made for Light {
         let (gpu, lighting) = (making.gpu, &making.method.settings().lighting);
         let octree = LitOctree::new(parts.octree(making)?)?;
         let params = octree.sizes.params;
-        let light = self.light.ensure(gpu, "light", light_bytes(&params, lighting.opacity))?;
+        let light = self.light.ensure(gpu, "light", light_bytes(&params, lighting.opacity.is_directional()))?;
         let from = self.leaves(making, parts, params.leaf_count.into())?;
         let lit = Lit { making, octree, opacity: lighting.opacity, light, from };
         self.record_direct(frame, &lit, parts)?;
@@ -164,7 +164,8 @@ impl Made for Irradiance {
     ) -> Result<Option<Read>, EngineError> {
         let (gpu, opacity) = (making.gpu, making.method.settings().lighting.opacity);
         let octree = LitOctree::new(parts.octree(making)?)?;
-        let shown = self.shown.ensure(gpu, "shown irradiance", light_bytes(&octree.sizes.params, opacity))?;
+        let shown =
+            self.shown.ensure(gpu, "shown irradiance", light_bytes(&octree.sizes.params, opacity.is_directional()))?;
         let light = parts.light.made(making.key(Part::Light)?, "light")?;
         let gathered = light.gathered.get().filter(|_| making.runs(Pass::Bounces));
         let from = Injected { direct: &light.direct.made("direct irradiance")?, gathered, emission: None };

@@ -23,12 +23,19 @@ pub mod size_ref;
 pub const COUNTER_CLIPPED: u32 = 0;
 /// Counter of the occupied nodes of level 0; those of levels 1 … depth follow.
 pub const COUNTER_OCCUPIED: u32 = 1;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer COUNTER_CLIPPED,
+    integer COUNTER_OCCUPIED,
+];
+
 /// 64-bit counters, two words each, cleared before a build.
 pub const COUNTERS: u32 = COUNTER_OCCUPIED + MAX_DEPTH + 1;
 
 use bytemuck::{Pod, Zeroable};
 
 use crate::data::octree::MAX_DEPTH;
+use crate::gpu::{Constant, Mirror, constants, mirror};
 
 /// Uniform of the kernels that work on one level.
 #[repr(C)]
@@ -36,3 +43,10 @@ use crate::data::octree::MAX_DEPTH;
 pub struct LevelParams {
     pub level: u32,
 }
+
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(LevelParams, "build/reduce.wgsl", "ReduceParams", level),
+    mirror!(LevelParams, "build/emit.wgsl", "EmitParams", level),
+    mirror!(LevelParams, "averaging/average.wgsl", "AverageParams", level),
+    mirror!(LevelParams, "light/average_light.wgsl", "AverageLightParams", level),
+];

@@ -5,10 +5,14 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{scan_spread, scan_sum};
 use crate::data::octree::Slot;
-use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
+use crate::gpu::{Constant, Gpu, GpuBuffer, GpuError, Mirror, Recorder, constants, mirror};
 
 /// Values that one thread sums.
 pub const SCAN_CHUNK: u32 = 64;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer SCAN_CHUNK,
+];
 
 /// Mirror of `ScanParams` in the scan kernels.
 #[repr(C)]
@@ -16,6 +20,11 @@ pub const SCAN_CHUNK: u32 = 64;
 pub struct ScanParams {
     pub count: u32,
 }
+
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
+    mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+];
 
 /// What is summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

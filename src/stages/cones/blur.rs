@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{Surfaces, image_bytes, tiled_threads};
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, Mirror, Recorder, mirror};
 
 /// Weights that [`BlurParams`] holds, from the middle outwards.
 const WEIGHTS: usize = 8;
@@ -17,6 +17,9 @@ pub struct BlurParams {
     pub vertical: u32,
     pub weights: [[f32; 4]; WEIGHTS / 4],
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(BlurParams, "cones/blur.wgsl", "BlurParams", size_px, radius_px, vertical, weights)];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {

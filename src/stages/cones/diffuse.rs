@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{ConesInput, image_bytes, tiled_threads};
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, Mirror, Recorder, mirror};
 use crate::settings::ConeTracing;
 use crate::stages::light::gather::{ConeShape, Cones};
 use crate::stages::sample::Sampler;
@@ -19,6 +19,18 @@ pub struct DiffuseParams {
     pub pattern_px: u32,
     pub occlusion_cells: f32,
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(
+    DiffuseParams,
+    "cones/diffuse.wgsl",
+    "DiffuseParams",
+    sky,
+    count,
+    shape,
+    size_px,
+    pattern_px,
+    occlusion_cells
+)];
 
 /// What the cones of a pixel are, beside the octree's size.
 #[derive(Clone, Copy, Debug, PartialEq)]

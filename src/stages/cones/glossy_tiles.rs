@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{Surfaces, image_bytes, list_tiles, tile_count};
 use crate::data::octree::Slot;
-use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, GpuError, Mirror, Recorder, mirror};
 use crate::stages::build::scan::{self, Scanned};
 
 /// Mirror of `GlossyParams` in shaders/cones/glossy_tiles.wgsl.
@@ -15,6 +15,9 @@ pub struct GlossyParams {
     pub tiles: u32,
     pub most_roughness: f32,
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(GlossyParams, "cones/glossy_tiles.wgsl", "GlossyParams", size_px, tiles, most_roughness)];
 
 impl GlossyParams {
     pub fn new(size_px: [u32; 2], most_roughness: f64) -> Self {

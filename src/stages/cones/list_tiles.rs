@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, Mirror, Recorder, mirror};
 
 /// Mirror of `ListParams` in shaders/cones/list_tiles.wgsl.
 #[repr(C)]
@@ -10,6 +10,8 @@ use crate::gpu::{Gpu, GpuBuffer, Recorder};
 pub struct ListParams {
     pub tiles: u32,
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(ListParams, "cones/list_tiles.wgsl", "ListParams", tiles)];
 
 /// `tiles` tiles, marked by bits, with the set bits before each word and of all. `list` has a word more than there
 /// are tiles.

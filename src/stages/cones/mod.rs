@@ -28,9 +28,14 @@ use super::surface::RADIANCE_BYTES;
 pub use super::surface::Surfaces;
 use super::view::picture::tiled_threads;
 pub use super::view::picture::{TILE_PX, tile_count};
+use crate::gpu::{Constant, constants};
 
 /// A filter's weights below this are none.
 pub const LEAST_WEIGHT: f64 = 1e-4;
+
+pub const CONSTANTS: &[Constant] = constants![
+    float LEAST_WEIGHT,
+];
 
 /// What cones start at and what they go through.
 #[derive(Clone, Copy, Debug)]

@@ -13,7 +13,7 @@ use bytemuck::{Pod, Zeroable};
 
 use super::glossy_tiles::TileList;
 use super::{ConesInput, TILE_PX, image_bytes};
-use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Constant, Counted, Gpu, GpuBuffer, Mirror, Recorder, constants, mirror};
 use crate::settings::ConeTracing;
 use crate::stages::light::gather::{ConeShape, Cones};
 use crate::stages::sample::Sampler;
@@ -26,6 +26,11 @@ pub const WIDEST_DEGREES: f64 = 30.0;
 pub const NARROWEST_TANGENT: f64 = 0.008_726_867_790_758_79;
 pub const WIDEST_TANGENT: f64 = 0.267_949_192_431_122_7;
 
+pub const CONSTANTS: &[Constant] = constants![
+    float NARROWEST_TANGENT,
+    float WIDEST_TANGENT,
+];
+
 /// Mirror of `SpecularParams` in shaders/cones/specular.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -36,6 +41,9 @@ pub struct SpecularParams {
     pub size_px: [u32; 2],
     pub pad: [u32; 2],
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(SpecularParams, "cones/specular.wgsl", "SpecularParams", sky, most_roughness, shape, size_px, pad)];
 
 impl SpecularParams {
     /// `sky`: radiance from all directions, nits.

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{Surfaces, image_bytes, tiled_threads};
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, Mirror, Recorder, mirror};
 
 /// Mirror of `UpsampleParams` in shaders/cones/upsample.wgsl.
 #[repr(C)]
@@ -12,6 +12,8 @@ pub struct UpsampleParams {
     pub size_px: [u32; 2],
     pub pad: [u32; 2],
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(UpsampleParams, "cones/upsample.wgsl", "UpsampleParams", size_px, pad)];
 
 /// What the last channel of an image says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

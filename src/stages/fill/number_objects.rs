@@ -2,12 +2,16 @@
 
 use super::Filling;
 use crate::data::octree::{OctreeParams, OctreeSizes};
-use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Constant, Counted, Gpu, GpuBuffer, Recorder, constants};
 use crate::settings::Filter;
 use crate::stages::transform::MovingVoxels;
 
 /// One word a leaf; the object is `OBJECT_MASK − (word & OBJECT_MASK)`.
 pub const OBJECT_MASK: u32 = 0xffff;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer OBJECT_MASK,
+];
 
 pub fn record(
     gpu: &Gpu,

@@ -15,7 +15,7 @@ pub fn record(gpu: &Gpu, frame: &mut Recorder, octree: &LitOctree, opacity: Opac
 }
 
 fn record_level(gpu: &Gpu, frame: &mut Recorder, octree: &LitOctree, opacity: Opacity, light: &GpuBuffer, level: u32) {
-    let is_directional = opacity == Opacity::Directional;
+    let is_directional = opacity.is_directional();
     let entries = if is_directional { 2 } else { 1 };
     frame
         .pass(&gpu.kernel("light/average_light.wgsl", &[("DIRECTIONAL", f64::from(u8::from(is_directional)))]))

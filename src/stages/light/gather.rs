@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 use super::LitOctree;
 use crate::data::octree::OctreeParams;
-use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Constant, Counted, Gpu, GpuBuffer, Mirror, Recorder, constants, mirror};
 use crate::settings::lighting::Opacity;
 
 /// A step is never shorter than this, in cells: what bounds the steps of a cone.
@@ -13,6 +13,12 @@ pub const LEAST_STEP: f64 = 1.0 / 16.0;
 pub const GOLDEN_TURN: u32 = 0x61c8_8647;
 /// One of those units, in radians.
 pub const TURN_ANGLE: f64 = std::f64::consts::TAU / (1_u64 << 32) as f64;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer GOLDEN_TURN,
+    float LEAST_STEP,
+    float TURN_ANGLE,
+];
 
 /// How a surface looks around.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +79,11 @@ pub struct ConeParams {
     pub shape: ConeShape,
 }
 
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(ConeShape, "shared/cone.wgsl", "ConeShape", widening, start_cells, step_diameters, reach_cells),
+    mirror!(ConeParams, "light/gather.wgsl", "ConeParams", sky, count, shape),
+];
+
 impl ConeParams {
     /// `sky`: radiance from all directions, nits.
     pub fn new(cones: &Cones, sky: [f32; 3]) -> Self {
@@ -99,7 +110,7 @@ pub fn record(
     irradiance: &GpuBuffer,
 ) {
     let flag = |on: bool| f64::from(u8::from(on));
-    let constants = [("SKY", flag(gathered == Gathered::Sky)), ("DIRECTIONAL", flag(opacity == Opacity::Directional))];
+    let constants = [("SKY", flag(gathered == Gathered::Sky)), ("DIRECTIONAL", flag(opacity.is_directional()))];
     frame
         .pass(&gpu.kernel("light/gather.wgsl", &constants))
         .bind("octree", &octree.sizes.buffer)

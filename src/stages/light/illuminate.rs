@@ -8,7 +8,7 @@ use super::{LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT, LitOctree, SHADOWS_MAP, 
 use crate::data::grid::Grid;
 use crate::data::light::IRRADIANCE_BYTES;
 use crate::data::octree::OctreeParams;
-use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Counted, Gpu, GpuBuffer, Mirror, Recorder, mirror};
 use crate::lights::PosedLight;
 use crate::scene::LightKind;
 use crate::settings::lighting::Shadows;
@@ -30,6 +30,21 @@ pub struct LightParams {
     pub angle_offset: f32,
     pub pad: [u32; 2],
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(
+    LightParams,
+    "shared/light.wgsl",
+    "LightParams",
+    position,
+    kind,
+    direction,
+    range_cells,
+    strength,
+    offset_cells,
+    angle_scale,
+    angle_offset,
+    pad
+)];
 
 impl LightParams {
     pub fn new(light: &PosedLight, grid: &Grid, offset_cells: f64) -> Self {

@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use super::LitOctree;
 use crate::data::light::{IRRADIANCE_BYTES, LIGHT_BYTES};
 use crate::data::octree::OctreeParams;
-use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Counted, Gpu, GpuBuffer, Mirror, Recorder, mirror};
 
 /// Mirror of `InjectParams` in shaders/light/inject.wgsl.
 #[repr(C)]
@@ -13,6 +13,8 @@ use crate::gpu::{Counted, Gpu, GpuBuffer, Recorder};
 pub struct InjectParams {
     pub emission_nits: f32,
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(InjectParams, "light/inject.wgsl", "InjectParams", emission_nits)];
 
 /// What a leaf's light is made of.
 #[derive(Clone, Copy, Debug)]

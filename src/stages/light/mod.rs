@@ -18,7 +18,7 @@ pub mod inject_ref;
 pub mod shadow;
 
 use crate::data::octree::{OctreeRef, OctreeSizes};
-use crate::gpu::{GpuBuffer, GpuError};
+use crate::gpu::{Constant, GpuBuffer, GpuError, constants};
 
 pub const LIGHT_DIRECTIONAL: u32 = 0;
 pub const LIGHT_POINT: u32 = 1;
@@ -32,6 +32,15 @@ pub const SHADOWS_MARCH: u32 = 2;
 pub const LEAST_DISTANCE_CELLS: f64 = 0.5;
 /// Mean of max(cosine, 0) over all directions.
 pub const SPREAD_COSINE: f64 = 0.25;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer LIGHT_DIRECTIONAL,
+    integer LIGHT_SPOT,
+    integer SHADOWS_MAP,
+    integer SHADOWS_OFF,
+    float LEAST_DISTANCE_CELLS,
+    float SPREAD_COSINE,
+];
 
 /// What lighting reads of a built octree.
 #[derive(Clone, Debug)]

@@ -8,7 +8,9 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, DVec4};
 
 use crate::data::grid::Grid;
-use crate::gpu::{DEPTH_FORMAT, Gpu, GpuError, GpuTexture, RasterTarget, Recorder};
+use crate::gpu::{
+    Constant, DEPTH_FORMAT, Gpu, GpuError, GpuTexture, Mirror, RasterTarget, Recorder, constants, mirror,
+};
 use crate::lights::PosedLight;
 use crate::scene::{Aabb, LightKind};
 use crate::stages::mesh::PosedMesh;
@@ -19,6 +21,11 @@ pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 pub const NARROW_SPOT_RADIANS: f64 = std::f64::consts::FRAC_PI_3;
 /// Nothing nearer to a light casts a shadow.
 pub const NEAR_CELLS: f64 = 1.0 / 16.0;
+
+pub const CONSTANTS: &[Constant] = constants![
+    float LIGHT_NEAR_CELLS = NEAR_CELLS,
+];
+
 const FACES: usize = 6;
 
 /// Mirror of `ShadowFrame` in shaders/shared/shadow_frame.wgsl.
@@ -38,6 +45,11 @@ pub struct ShadowParams {
     pub size_px: u32,
     pub pad: [u32; 2],
 }
+
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(ShadowFrame, "shared/shadow_frame.wgsl", "ShadowFrame", clip_from_grid, distance),
+    mirror!(ShadowParams, "shared/shadow_map.wgsl", "ShadowParams", frames, count, size_px, pad),
+];
 
 /// A layer a frame. Without frames it hides nothing.
 #[derive(Clone, Debug)]

@@ -9,6 +9,8 @@ mod vertex;
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::gpu::{Constant, Mirror, constants, mirror};
+
 pub use posed::PosedMesh;
 pub use scene::{MeshScene, Textures};
 
@@ -17,6 +19,12 @@ pub const ALPHA_MASK: u32 = 1;
 pub const ALPHA_BLEND: u32 = 2;
 /// Set in a packed tangent whose bitangent is −(normal × tangent).
 pub const LEFT_HANDED: u32 = 1 << 30;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer ALPHA_BLEND,
+    integer ALPHA_MASK,
+    integer LEFT_HANDED,
+];
 
 /// Mirror of `MeshVertex` in shaders/shared/posed_mesh.wgsl.
 #[repr(C)]
@@ -70,3 +78,32 @@ pub struct DrawParams {
     pub normal_slot: TextureSlot,
     pub emissive_slot: TextureSlot,
 }
+
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(MeshVertex, "shared/posed_mesh.wgsl", "MeshVertex", position, color, normal, tangent, tex_coords),
+    mirror!(TextureSlot, "shared/posed_mesh.wgsl", "TextureSlot", u, tex_coord, v, is_filled),
+    mirror!(VertexJoints, "shared/posed_mesh.wgsl", "VertexJoints", joints, weights),
+    mirror!(
+        DrawParams,
+        "shared/posed_mesh.wgsl",
+        "DrawParams",
+        base_color,
+        first_index,
+        first_vertex,
+        first_matrix,
+        object,
+        alpha_mode,
+        cutoff,
+        unlit,
+        has_tangents,
+        emissive,
+        normal_scale,
+        roughness,
+        metallic,
+        pad,
+        base_color_slot,
+        metallic_roughness_slot,
+        normal_slot,
+        emissive_slot
+    ),
+];

@@ -7,7 +7,7 @@ pub mod sample_points;
 pub mod sample_points_ref;
 
 use crate::data::octree::{OctreeRef, OctreeSizes, PointerLayout};
-use crate::gpu::{GpuBuffer, GpuError, Kernel, PassBuilder};
+use crate::gpu::{Constant, GpuBuffer, GpuError, Kernel, PassBuilder, constants};
 use crate::settings::lighting::Opacity;
 use crate::settings::{Lookup, Sampling};
 
@@ -25,6 +25,15 @@ pub const HORIZON_CELLS: f64 = 1.0;
 pub const HORIZON_FADE: f64 = 0.5;
 /// The least share of a sample's weight that stands for all of it.
 pub const HORIZON_SHARE: f64 = 0.25;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer FILTER_QUADRILINEAR,
+    integer FILTER_TRILINEAR,
+    float HORIZON_CELLS,
+    float HORIZON_FADE,
+    float HORIZON_SHARE,
+    float LEAST_THROUGH,
+];
 
 /// The pointers that a look-up follows, which the octree must then hold.
 pub fn pointer_layout(lookup: Lookup) -> Option<PointerLayout> {
@@ -52,7 +61,7 @@ impl Sampler {
             Sampling::Trilinear => FILTER_TRILINEAR,
             Sampling::Quadrilinear => FILTER_QUADRILINEAR,
         };
-        [("FILTER", filter.into()), ("DIRECTIONAL", flag(self.opacity == Opacity::Directional))]
+        [("FILTER", filter.into()), ("DIRECTIONAL", flag(self.opacity.is_directional()))]
     }
 
     /// Overrides of shaders/shared/look_up.wgsl, which imports the other.

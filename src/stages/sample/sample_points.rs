@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{SampledOctree, Sampler};
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, Mirror, Recorder, mirror};
 
 /// Mirror of `PointParams` in shaders/sample/sample_points.wgsl.
 #[repr(C)]
@@ -13,6 +13,8 @@ pub struct PointParams {
     pub direction: [f32; 3],
     pub pad: u32,
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(PointParams, "sample/sample_points.wgsl", "PointParams", direction, pad)];
 
 impl PointParams {
     pub fn new(direction: [f32; 3]) -> Self {

@@ -8,7 +8,7 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{RADIANCE_BYTES, Surfaces};
 use crate::data::surface_image::SurfaceImage;
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Constant, Gpu, GpuBuffer, Mirror, Recorder, constants, mirror};
 use crate::settings::SurfaceView;
 use crate::stages::view::ViewParams;
 
@@ -23,6 +23,19 @@ pub const TERM_NORMAL: u32 = 7;
 pub const TERM_DEPTH: u32 = 8;
 pub const TERM_ROUGHNESS: u32 = 9;
 
+pub const CONSTANTS: &[Constant] = constants![
+    integer TERM_ALBEDO,
+    integer TERM_AO,
+    integer TERM_DEPTH,
+    integer TERM_DIFFUSE,
+    integer TERM_DIRECT,
+    integer TERM_FINAL,
+    integer TERM_IRRADIANCE,
+    integer TERM_NORMAL,
+    integer TERM_ROUGHNESS,
+    integer TERM_SPECULAR,
+];
+
 /// Mirror of `ComposeParams` in shaders/surface/compose.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -35,6 +48,9 @@ pub struct ComposeParams {
     pub pad: u32,
     pub pad_end: [u32; 2],
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(ComposeParams, "surface/compose.wgsl", "ComposeParams", sky, glossy_roughness, span, pad, pad_end)];
 
 /// What is put together. `None`: it was not traced.
 #[derive(Clone, Copy, Debug)]

@@ -10,7 +10,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::data::grid::Grid;
 use crate::data::surface_image::{FORMAT, SurfaceImage};
-use crate::gpu::{Gpu, GpuTexture, RasterTarget, Recorder};
+use crate::gpu::{Gpu, GpuTexture, Mirror, RasterTarget, Recorder, mirror};
 use crate::scene::OrbitCamera;
 use crate::stages::mesh::PosedMesh;
 use crate::stages::view::NO_DEPTH;
@@ -27,6 +27,17 @@ pub struct SurfaceParams {
     pub pad: u32,
     pub pad_2: [u32; 2],
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(
+    SurfaceParams,
+    "surface/draw.wgsl",
+    "SurfaceParams",
+    clip_from_camera,
+    world_from_camera,
+    emission,
+    pad,
+    pad_2
+)];
 
 /// From where surfaces are seen.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::sum_luminance::SUM_BYTES;
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, Mirror, Recorder, mirror};
 
 /// Mirror of `PictureExposure` in shaders/shared/picture_exposure.wgsl.
 #[repr(C)]
@@ -14,6 +14,9 @@ pub struct PictureExposure {
     pub mean: f32,
     pub pad: [u32; 2],
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(PictureExposure, "shared/picture_exposure.wgsl", "PictureExposure", factor, mean, pad)];
 
 /// Of a buffer of it, which is made with the usage of a uniform.
 pub const EXPOSURE_BYTES: u64 = size_of::<PictureExposure>() as u64;

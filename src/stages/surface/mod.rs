@@ -25,7 +25,7 @@ pub mod sum_luminance;
 pub mod sum_luminance_ref;
 
 use crate::data::surface_image::SurfaceImage;
-use crate::gpu::{GpuBuffer, Kernel, PassBuilder};
+use crate::gpu::{Constant, GpuBuffer, Kernel, PassBuilder, constants};
 use crate::stages::view::ViewParams;
 use crate::stages::view::picture::tiled_threads;
 
@@ -39,6 +39,14 @@ pub const LEAST_EYE_COSINE: f64 = 0.01;
 /// hollow do not shade one another along their edges, and what f32 distances of 1024 cells are off by.
 pub const SHADOW_HEIGHT_TEXELS: f64 = 0.5;
 pub const SHADOW_HEIGHT_CELLS: f64 = 1.0 / 512.0;
+
+pub const CONSTANTS: &[Constant] = constants![
+    float DIELECTRIC_REFLECTANCE,
+    float LEAST_EYE_COSINE,
+    float LEAST_ROUGHNESS,
+    float SHADOW_HEIGHT_CELLS,
+    float SHADOW_HEIGHT_TEXELS,
+];
 
 /// What the camera sees, and the view that it was seen in, of the same size.
 #[derive(Clone, Copy, Debug)]

@@ -8,7 +8,7 @@ pub mod skinned_ref;
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::gpu::GpuBuffer;
+use crate::gpu::{GpuBuffer, Mirror, mirror};
 
 /// Mirror of `TransformParams` in shaders/shared/move_voxel.wgsl.
 #[repr(C)]
@@ -36,6 +36,13 @@ pub struct Part {
     pub emission_skew: u32,
     pub pad: u32,
 }
+
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
+    mirror!(Matrix3x4, "shared/move_voxel.wgsl", "Matrix3x4", rows),
+    mirror!(Part, "shared/part.wgsl", "Part", origin, first_matrix, joints_skew, object, emission_skew, pad),
+    mirror!(Matrix3x4, "shared/posed_mesh.wgsl", "MeshMatrix", rows),
+];
 
 /// The buffers of a transformation. Rigid parts come first in the work list, then skinned ones.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{Picture, ViewParams};
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, Mirror, Recorder, mirror};
 use crate::stages::light::LitOctree;
 
 /// Mirror of `ExposureParams` in shaders/view/march_light.wgsl.
@@ -13,6 +13,8 @@ pub struct ExposureParams {
     pub factor: f32,
     pub automatic: u32,
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(ExposureParams, "view/march_light.wgsl", "ExposureParams", factor, automatic)];
 
 /// What light is multiplied by before it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]

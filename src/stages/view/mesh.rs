@@ -10,7 +10,7 @@ use super::picture::{COLOR_FORMAT, DISTANCE_FORMAT};
 use super::{BACKGROUND, NO_DEPTH, Palette, Picture, ViewParams};
 use crate::color::gamma_from_linear;
 use crate::data::grid::Grid;
-use crate::gpu::{Gpu, GpuTexture, RasterTarget, Recorder};
+use crate::gpu::{Gpu, GpuTexture, Mirror, RasterTarget, Recorder, mirror};
 use crate::scene::OrbitCamera;
 use crate::settings::Look;
 use crate::stages::mesh::PosedMesh;
@@ -23,6 +23,9 @@ pub struct MeshParams {
     /// Columns, each padded to four.
     pub world_from_camera: [[f32; 4]; 3],
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(MeshParams, "view/mesh.wgsl", "MeshParams", clip_from_camera, world_from_camera)];
 
 /// What is drawn into.
 #[derive(Clone, Copy, Debug)]

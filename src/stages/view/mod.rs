@@ -21,6 +21,7 @@ pub mod slice_ref;
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::gpu::{Constant, Mirror, constants, mirror};
 use crate::settings::{AlphaRule, ColorBy, Look};
 use camera::PixelRays;
 
@@ -53,6 +54,25 @@ pub const EDGE_FULL_PX: f64 = 10.0;
 /// Mean light is shown as this without an exposure of one's own: mean voxels are mostly in shadow, so that what
 /// is lit comes out bright.
 pub const MEAN_SHOWN_AS: f64 = 0.18;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer COLOR_DARK,
+    integer COLOR_LEVEL,
+    integer COLOR_NORMAL,
+    integer COLOR_OBJECT,
+    integer COLOR_OCCUPANCY,
+    integer VIEW_EDGES,
+    integer VIEW_LENGTH_RULE,
+    integer VIEW_SHADED,
+    float AMBIENT,
+    float EDGE_FROM_PX,
+    float EDGE_FULL_PX,
+    float EDGE_SHADE,
+    float LEAST_LIGHT,
+    float MEAN_SHOWN_AS,
+    float SHORT_NORMAL,
+];
+
 /// Linear.
 pub const BACKGROUND: [f32; 3] = [0.022, 0.025, 0.03];
 /// Distance of a pixel where less than half of the light is stopped.
@@ -77,6 +97,26 @@ pub struct ViewParams {
     pub background: [f32; 3],
     pub pad: u32,
 }
+
+pub const MIRRORS: &[Mirror] = &[mirror!(
+    ViewParams,
+    "shared/view.wgsl",
+    "ViewParams",
+    origin,
+    width_px,
+    origin_x,
+    height_px,
+    origin_y,
+    start_cells,
+    direction,
+    level,
+    direction_x,
+    color_by,
+    direction_y,
+    flags,
+    background,
+    pad
+)];
 
 impl ViewParams {
     /// For a grid of 2^`depth` cells an axis.

@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use colorous::{Color, Gradient};
 
 use crate::color::linear_from_gamma;
+use crate::gpu::{Mirror, mirror};
 use crate::settings::ColorBy;
 
 const ENTRIES: usize = 256;
@@ -63,6 +64,11 @@ pub struct GhostColors {
     /// In the moved set alone: what it added.
     pub spill: [f32; 4],
 }
+
+pub const MIRRORS: &[Mirror] = &[
+    mirror!(Palette, "shared/view.wgsl", "Palette", colors),
+    mirror!(GhostColors, "view/ghost.wgsl", "GhostColors", both, holes, spill),
+];
 
 /// Spill lies over holes like a haze: split voxels spill everywhere, and holes must show through.
 pub const GHOST_COLORS: GhostColors =

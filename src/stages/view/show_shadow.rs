@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{Palette, Picture, ViewParams};
-use crate::gpu::{Gpu, Recorder};
+use crate::gpu::{Gpu, Mirror, Recorder, mirror};
 use crate::stages::light::shadow::ShadowMap;
 
 /// Mirror of `ShowShadowParams` in shaders/view/show_shadow.wgsl.
@@ -15,6 +15,9 @@ pub struct ShowShadowParams {
     pub layers: u32,
     pub map_px: u32,
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(ShowShadowParams, "view/show_shadow.wgsl", "ShowShadowParams", least, most, layers, map_px)];
 
 /// `range_cells`: distances of the scale's ends.
 pub fn record(

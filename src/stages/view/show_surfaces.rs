@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{Palette, Picture, ViewParams};
 use crate::data::surface_image::SurfaceImage;
-use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::gpu::{Constant, Gpu, GpuBuffer, Mirror, Recorder, constants, mirror};
 use crate::settings::{SurfaceView, ToneCurve};
 use crate::stages::surface::mean_luminance::PictureExposure;
 
@@ -20,6 +20,19 @@ pub const CURVE_ACES: u32 = 2;
 /// x (A·x + B) / (x (C·x + D) + E) (Narkowicz 2015).
 pub const ACES: [f64; 5] = [2.51, 0.03, 2.43, 0.59, 0.14];
 
+pub const CONSTANTS: &[Constant] = constants![
+    integer CURVE_ACES,
+    integer CURVE_REINHARD,
+    integer SHOWS_DEPTH,
+    integer SHOWS_LIGHT,
+    integer SHOWS_NORMAL,
+    float ACES_A = ACES[0],
+    float ACES_B = ACES[1],
+    float ACES_C = ACES[2],
+    float ACES_D = ACES[3],
+    float ACES_E = ACES[4],
+];
+
 /// Mirror of `ShowSurfacesParams` in shaders/view/show_surfaces.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -31,6 +44,9 @@ pub struct ShowSurfacesParams {
     pub sky: u32,
     pub pad: u32,
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(ShowSurfacesParams, "view/show_surfaces.wgsl", "ShowSurfacesParams", least, most, sky, pad)];
 
 /// What light is multiplied by.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{Palette, Picture, ViewParams};
-use crate::gpu::{Gpu, Recorder};
+use crate::gpu::{Constant, Gpu, Mirror, Recorder, constants, mirror};
 use crate::settings::lighting::Opacity;
 use crate::settings::{Sampling, Slice, SliceAxis, SliceValue};
 use crate::stages::sample::{SampledOctree, Sampler};
@@ -11,6 +11,12 @@ use crate::stages::sample::{SampledOctree, Sampler};
 pub const SLICE_OCCUPANCY: u32 = 1;
 pub const SLICE_LOGARITHMIC: u32 = 2;
 pub const SLICE_OF_MEAN: u32 = 4;
+
+pub const CONSTANTS: &[Constant] = constants![
+    integer SLICE_LOGARITHMIC,
+    integer SLICE_OCCUPANCY,
+    integer SLICE_OF_MEAN,
+];
 
 /// Ends of a scale around the mean light, in means: light spans many powers of two.
 const LOGARITHMIC_MEANS: [f64; 2] = [1.0 / 256.0, 16.0];
@@ -31,6 +37,9 @@ pub struct SliceParams {
     pub most: f32,
     pub pad: [u32; 2],
 }
+
+pub const MIRRORS: &[Mirror] =
+    &[mirror!(SliceParams, "view/slice.wgsl", "SliceParams", axis, height_cells, at, flags, least, most, pad)];
 
 impl SliceParams {
     /// For a grid of 2^`depth` cells an axis; `range`: values at the scale's ends, both above zero where

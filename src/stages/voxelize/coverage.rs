@@ -13,7 +13,7 @@ use glam::IVec3;
 
 use super::plane::Plane;
 use super::triangle::Triangle;
-use crate::data::voxel_cache::VoxelizationMode;
+use crate::settings::VoxelizationMode;
 
 /// A half-open box of cells, `min` to `max`.
 pub type CellBox = [IVec3; 2];

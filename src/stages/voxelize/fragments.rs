@@ -11,8 +11,9 @@ use rayon::prelude::*;
 use super::coverage::{CellBox, for_each_cell};
 use super::triangle::Triangle;
 use crate::data::grid::{morton_cell, morton_key};
-use crate::data::voxel_cache::{TILE_CELLS, VoxelizationMode};
+use crate::data::voxel_cache::TILE_CELLS;
 use crate::progress::{Cancelled, Progress};
+use crate::settings::VoxelizationMode;
 
 const TILE_BITS: u32 = TILE_CELLS.trailing_zeros();
 /// Bits of a cell's Morton code inside its tile.

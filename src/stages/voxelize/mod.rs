@@ -25,9 +25,10 @@ use rayon::prelude::*;
 pub use coverage::CellBox;
 pub use pyramid::{Texels, TexturePyramids};
 
-use crate::data::voxel_cache::{MAX_COORDINATE_CELLS, VoxelCache, VoxelizationMode, VoxelizeReport};
+use crate::data::voxel_cache::{MAX_COORDINATE_CELLS, VoxelCache, VoxelizeReport};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Material, Primitive, TextureRef};
+use crate::settings::VoxelizationMode;
 use fragments::{Fragments, MAX_EXTENT_CELLS, Soup};
 use payload::MAX_FRAGMENTS;
 

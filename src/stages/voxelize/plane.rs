@@ -3,7 +3,7 @@
 //! In: corners in axes (u, v, w), w dominant. Out: the cells of a column that meet the plane.
 //! Estimated heights decide where their error bound allows, else the exact predicate does.
 
-use crate::data::voxel_cache::VoxelizationMode;
+use crate::settings::VoxelizationMode;
 
 /// The triangle's plane as heights along w over columns (u, v), slopes at most 1.
 pub(super) struct Plane {

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::{DVec3, IVec3, Vec2, Vec3};
 use octolume::data::grid::morton_key;
 use octolume::data::packing::{unpack_position, unpack_rgba8};
-use octolume::data::voxel_cache::VoxelizationMode::{self, Conservative, Thin};
 use octolume::data::voxel_cache::{CacheVoxel, TILE_CELLS, VoxelCache};
 use octolume::progress::Progress;
 use octolume::scene::{Material, Primitive, Texture, TextureRef, Wrap};
+use octolume::settings::VoxelizationMode::{self, Conservative, Thin};
 use octolume::stages::voxelize::{TexturePyramids, VoxelizeError, VoxelizeInput, VoxelizePart, voxelize};
 
 use super::soup::{Random, Soup};

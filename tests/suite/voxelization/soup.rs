@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec3};
-use octolume::data::voxel_cache::VoxelizationMode;
+use octolume::settings::VoxelizationMode;
 use octolume::stages::voxelize::voxelize_cells;
 
 #[derive(Clone, Debug, Default)]

@@ -3,11 +3,11 @@
 use std::sync::{Arc, LazyLock};
 
 use glam::{DMat4, DQuat, DVec3};
-use octolume::data::voxel_cache::VoxelizationMode;
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{Interpolation, Light, LightKind, Material, Mesh, Node, Property, Scene, Skin};
 use octolume::settings::Discretization;
+use octolume::settings::VoxelizationMode;
 
 use crate::scenes::{at, channel, clip, cube, node, rotation, scaled, sliding_scene};
 

@@ -1,51 +1,6 @@
-//! Everything a person can set. Window and command line fill the same struct, a screenshot carries
-//! it, and the engine compares it with what was built to decide what a frame must do.
-
-mod cone_tracing;
-mod light_edit;
-mod light_names;
-pub mod lighting;
-mod listed_names;
-mod look;
-mod node_names;
-mod visibility;
+//! What the voxels are made of, and how they move.
 
 use serde::{Deserialize, Serialize};
-
-pub use cone_tracing::ConeTracing;
-pub use light_names::{LightChange, LightError};
-pub use lighting::Lighting;
-pub use look::{
-    AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, SurfaceView, ToneCurve, View,
-};
-pub use node_names::NodeNames;
-pub use visibility::{Hidden, Visibility, VisibilityError};
-
-use crate::data::voxel_cache::VoxelizationMode;
-
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Settings {
-    pub discretization: Discretization,
-    pub motion: MotionSettings,
-    pub look: Look,
-    pub visibility: Visibility,
-    pub lighting: Lighting,
-    pub cone_tracing: ConeTracing,
-}
-
-impl Settings {
-    /// Are all values in range? If not, the sentence names value and range. Whoever takes settings
-    /// from outside the program asks, before using them. Clip and nodes depend on the scene: whoever
-    /// poses it finds out.
-    pub fn check(&self) -> Result<(), String> {
-        self.discretization.check()?;
-        self.motion.check()?;
-        self.lighting.check()?;
-        self.cone_tracing.check()?;
-        self.look.check(self.discretization.depth())
-    }
-}
 
 /// What the voxels are made of. A change of grid, span or mode voxelizes again.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,7 +44,7 @@ impl Discretization {
         self.dense_level.min(self.depth() - 1)
     }
 
-    fn check(&self) -> Result<(), String> {
+    pub(super) fn check(&self) -> Result<(), String> {
         if !Self::GRIDS.contains(&self.grid) {
             return Err(format!("a grid of {} cells is not one of {:?}", self.grid, Self::GRIDS));
         }
@@ -141,30 +96,13 @@ pub enum VoxelAnchor {
     Corner,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct MotionSettings {
-    /// Clip by name; `None`: the first one. An empty name: the rest pose.
-    pub clip: Option<String>,
-    pub time_secs: f64,
-    /// Turns the whole scene about its centre, x, then y, then z axis, after voxelization: a rigid motion of everything.
-    pub turn_degrees: [f64; 3],
-}
-
-impl MotionSettings {
-    fn check(&self) -> Result<(), String> {
-        if !(self.time_secs.is_finite() && self.time_secs >= 0.0) {
-            return Err(format!("a time of {} seconds is not a finite number from 0", self.time_secs));
-        }
-        if !self.turn_degrees.iter().all(|angle| angle.is_finite()) {
-            return Err(format!("a turn of {:?} degrees is not finite", self.turn_degrees));
-        }
-        Ok(())
-    }
-}
-
-impl Default for MotionSettings {
-    fn default() -> Self {
-        Self { clip: None, time_secs: 0.0, turn_degrees: [0.0; 3] }
-    }
+/// Which cells a triangle occupies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum VoxelizationMode {
+    /// 6-separating: the thinnest layer no axial step passes through.
+    #[default]
+    Thin,
+    /// Every cell a triangle touches.
+    Conservative,
 }

@@ -1,0 +1,77 @@
+//! What the GPU is given to compile: every file of `shaders/`, and the numbers and structs that stages share with them.
+
+use std::f64::consts::{FRAC_1_PI, PI};
+
+use super::{build, cones, fill, light, mesh, sample, surface, transform, view};
+use crate::color::LUMINANCE;
+use crate::data;
+use crate::gpu::{self, Constant, Mirror, Shaders, constants};
+
+pub static SHADERS: Shaders =
+    Shaders { files: include!(concat!(env!("OUT_DIR"), "/shaders.rs")), constants: CONSTANTS };
+
+const MATHEMATICS: &[Constant] = constants![
+    float PI,
+    float INVERSE_PI = FRAC_1_PI,
+    float LUMINANCE_RED = LUMINANCE[0],
+    float LUMINANCE_GREEN = LUMINANCE[1],
+    float LUMINANCE_BLUE = LUMINANCE[2],
+];
+
+const CONSTANTS: &[&[Constant]] = &[
+    MATHEMATICS,
+    data::light::CONSTANTS,
+    data::octree::CONSTANTS,
+    data::packing::CONSTANTS,
+    data::pages::CONSTANTS,
+    data::voxel_cache::CONSTANTS,
+    build::CONSTANTS,
+    build::scan::CONSTANTS,
+    fill::number_objects::CONSTANTS,
+    light::CONSTANTS,
+    light::gather::CONSTANTS,
+    light::shadow::CONSTANTS,
+    sample::CONSTANTS,
+    mesh::CONSTANTS,
+    surface::CONSTANTS,
+    surface::compose::CONSTANTS,
+    surface::sum_luminance::CONSTANTS,
+    cones::CONSTANTS,
+    cones::specular::CONSTANTS,
+    view::CONSTANTS,
+    view::show_surfaces::CONSTANTS,
+    view::slice::CONSTANTS,
+];
+
+/// Structs in bindings, list by list.
+pub const MIRRORS: &[&[Mirror]] = &[
+    gpu::MIRRORS,
+    data::octree::MIRRORS,
+    data::pages::MIRRORS,
+    transform::MIRRORS,
+    build::MIRRORS,
+    build::scan::MIRRORS,
+    light::illuminate::MIRRORS,
+    light::gather::MIRRORS,
+    light::inject::MIRRORS,
+    light::shadow::MIRRORS,
+    sample::sample_points::MIRRORS,
+    mesh::MIRRORS,
+    surface::draw::MIRRORS,
+    surface::compose::MIRRORS,
+    surface::mean_luminance::MIRRORS,
+    surface::sum_luminance::MIRRORS,
+    cones::blur::MIRRORS,
+    cones::diffuse::MIRRORS,
+    cones::glossy_tiles::MIRRORS,
+    cones::list_tiles::MIRRORS,
+    cones::specular::MIRRORS,
+    cones::upsample::MIRRORS,
+    view::MIRRORS,
+    view::palette::MIRRORS,
+    view::march_light::MIRRORS,
+    view::mesh::MIRRORS,
+    view::show_shadow::MIRRORS,
+    view::show_surfaces::MIRRORS,
+    view::slice::MIRRORS,
+];
