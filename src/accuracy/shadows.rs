@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::posed_triangles::{PosedTriangles, SurfacePoint};
 use crate::color::luminance;
 use crate::data::grid::{Grid, morton_key};
-use crate::engine::WorldVoxels;
+use crate::data::world_voxels::WorldVoxels;
 use crate::lights::PosedLight;
 use crate::scene::LightKind;
 use crate::stages::light::illuminate_ref::{self, Light, Source};

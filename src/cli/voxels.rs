@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use octolume::data::grid::{Grid, morton_cell};
-use octolume::engine::WorldVoxels;
+use octolume::data::world_voxels::WorldVoxels;
 use octolume::export::{self, ExportError};
 use octolume::prepare::ExactVoxel;
 use octolume::settings::{Settings, View};

@@ -9,3 +9,4 @@ pub mod pages;
 pub mod slot;
 pub mod surface_image;
 pub mod voxel_cache;
+pub mod world_voxels;

@@ -1,5 +1,6 @@
 //! The folder as a whole: what it holds, how much it may hold, and what goes first.
 
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -8,7 +9,7 @@ use std::time::{Duration, SystemTime};
 use bytesize::GIB;
 use serde::Serialize;
 
-use super::{DiskCache, KINDS};
+use super::DiskCache;
 
 /// How much a folder holds at most, unless [`DiskCache::set_cap_bytes`] was asked for something else.
 pub const DEFAULT_CAP_BYTES: u64 = 4 * GIB;
@@ -51,7 +52,7 @@ impl DiskCache {
     /// processes left behind. Returns what was removed.
     pub fn trim(&self) -> io::Result<Contents> {
         let is_abandoned = |file: &Found| file.modified.elapsed().is_ok_and(|age| age > ABANDONED_AFTER);
-        remove(self.files(UNFINISHED_EXTENSION)?.iter().filter(|file| is_abandoned(file)))?;
+        remove(self.files(is_unfinished)?.iter().filter(|file| is_abandoned(file)))?;
         let mut entries = self.entries()?;
         entries.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
         let mut excess = total(&entries).bytes.saturating_sub(self.cap_bytes());
@@ -65,7 +66,7 @@ impl DiskCache {
 
     /// Removes all entries, but not the cap. Returns what was removed.
     pub fn clear(&self) -> io::Result<Contents> {
-        remove(&self.files(UNFINISHED_EXTENSION)?)?;
+        remove(&self.files(is_unfinished)?)?;
         remove(&self.entries()?)
     }
 
@@ -81,16 +82,12 @@ impl DiskCache {
     }
 
     fn entries(&self) -> io::Result<Vec<Found>> {
-        let mut entries = Vec::new();
-        for kind in KINDS {
-            entries.extend(self.files(kind.extension)?);
-        }
-        Ok(entries)
+        self.files(is_entry)
     }
 
-    /// Regular files with an extension. A folder that does not exist holds none; a file that
+    /// Regular files of some names. A folder that does not exist holds none; a file that
     /// another process has just removed is not there.
-    fn files(&self, extension: &str) -> io::Result<Vec<Found>> {
+    fn files(&self, is_one: fn(&Path) -> bool) -> io::Result<Vec<Found>> {
         let listing = match fs::read_dir(&self.folder) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
             listing => listing?,
@@ -99,12 +96,22 @@ impl DiskCache {
         for item in listing {
             let path = item?.path();
             let Ok(metadata) = fs::symlink_metadata(&path) else { continue };
-            if metadata.is_file() && path.extension().is_some_and(|found| found == extension) {
+            if metadata.is_file() && is_one(&path) {
                 files.push(Found { modified: metadata.modified()?, path, bytes: metadata.len() });
             }
         }
         Ok(files)
     }
+}
+
+/// Entries of every kind are called by their key in hexadecimal.
+fn is_entry(path: &Path) -> bool {
+    let is_key = |stem: &str| stem.len() == 64 && stem.bytes().all(|digit| digit.is_ascii_hexdigit());
+    path.extension().is_some() && path.file_stem().and_then(OsStr::to_str).is_some_and(is_key)
+}
+
+fn is_unfinished(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == UNFINISHED_EXTENSION)
 }
 
 fn total<'a>(files: impl IntoIterator<Item = &'a Found>) -> Contents {

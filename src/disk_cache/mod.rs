@@ -1,10 +1,9 @@
-//! Voxel caches kept on disk, so that a scene that was opened before voxelizes nothing (section 3.1
-//! is done once per object, not once per opening); and pictures of the path tracer, which go on from there.
+//! What is kept between runs, by the content it was made from: voxels of objects, so that a scene that was opened before
+//! voxelizes nothing (section 3.1 is done once per object, not once per opening), pictures of the path tracer, which go
+//! on from there. This is the folder; what is kept knows how.
 //!
 //! ```text
-//! VoxelizeInput ──► ContentKey ──► FOLDER/<key in hex>.voxels ──► VoxelCache
-//!              key             folder                       entry
-//! traced scene  ──► ContentKey ──► FOLDER/<key in hex>.film   ──► Film
+//! what the work reads ──► ContentKey ──► FOLDER/<key in hex>.<kind> ──► what it made
 //! ```
 //!
 //! A key is made from the content that the work reads and from nothing else, so entries are
@@ -12,11 +11,8 @@
 //! renaming, whole or not at all, and everything read is checked: processes and threads share the
 //! folder without locks, and a damaged entry is the same as none.
 
-mod entry;
-mod film;
-mod fit;
+mod content_key;
 mod folder;
-mod key;
 mod seal;
 
 use std::fs::{self, File};
@@ -26,15 +22,9 @@ use std::time::SystemTime;
 
 use directories::ProjectDirs;
 
-use crate::accuracy::path_tracer::Film;
-use crate::data::voxel_cache::VoxelCache;
-use crate::stages::voxelize::VoxelizeInput;
-
+pub use content_key::ContentKey;
 pub use folder::{Contents, DEFAULT_CAP_BYTES};
-pub use key::{ContentKey, TextureHashes, Writer};
-use seal::{Kind, Sealed};
-
-const KINDS: [Kind; 2] = [entry::KIND, film::KIND];
+pub use seal::{Kind, Sealed, open, take};
 
 /// Names the folder of the cache; empty: no cache.
 pub const FOLDER_VARIABLE: &str = "OCTOLUME_CACHE_DIR";
@@ -43,15 +33,6 @@ pub const FOLDER_VARIABLE: &str = "OCTOLUME_CACHE_DIR";
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DiskCache {
     folder: PathBuf,
-}
-
-/// What a look into the folder finds.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Lookup {
-    Found(VoxelCache),
-    Missing,
-    /// There is a file, but it cannot be read or is not what it should be.
-    Damaged,
 }
 
 impl DiskCache {
@@ -73,52 +54,16 @@ impl DiskCache {
         &self.folder
     }
 
-    /// The voxels of `input`, if an entry of that key holds some that can be its.
-    pub fn load(&self, key: &ContentKey, input: &VoxelizeInput) -> Lookup {
-        match self.read(&entry::KIND, key) {
-            None => Lookup::Missing,
-            Some(bytes) => match entry::decode(&bytes, key).filter(|cache| fit::fits(cache, input)) {
-                None => Lookup::Damaged,
-                Some(cache) => {
-                    self.touch(&entry::KIND, key);
-                    Lookup::Found(cache)
-                }
-            },
-        }
-    }
-
-    /// Keeps the voxels, in place of what was there. What is larger than the cap is not kept.
-    pub fn store(&self, key: &ContentKey, cache: &VoxelCache) -> io::Result<()> {
-        self.write_entry(&entry::KIND, key, &entry::encode(key, cache)?)
-    }
-
-    /// The picture of that key with no more than `most_samples` a pixel; `None` where there is none, or it is
-    /// damaged.
-    pub fn load_film(&self, key: &ContentKey, size_px: [u32; 2], most_samples: u32) -> Option<Film> {
-        let bytes = self.read(&film::KIND, key)?;
-        let film = film::decode(&bytes, key, size_px)?;
-        self.touch(&film::KIND, key);
-        (film.samples() <= most_samples).then_some(film)
-    }
-
-    /// Keeps a picture whose pixels all have as many samples; of several, the one with most is kept.
-    pub fn store_film(&self, key: &ContentKey, film: &Film) -> io::Result<()> {
-        let kept = self.load_film(key, film.size_px(), u32::MAX);
-        if kept.is_some_and(|kept| kept.samples() >= film.samples()) {
-            return Ok(());
-        }
-        self.write_entry(&film::KIND, key, &film::encode(key, film)?)
-    }
-
-    fn write_entry(&self, kind: &Kind, key: &ContentKey, entry: &Sealed) -> io::Result<()> {
-        if entry.len() > self.cap_bytes() {
+    /// Keeps an entry, in place of what was there. What is larger than the cap is not kept.
+    pub fn write_entry(&self, kind: &Kind, key: &ContentKey, entry: &Sealed) -> io::Result<()> {
+        if entry.bytes() > self.cap_bytes() {
             return Ok(());
         }
         self.write(&self.path(kind, key), |file| entry.write(file))
     }
 
     /// The bytes of an entry, none of a file that cannot be one; `None` where there is no file.
-    fn read(&self, kind: &Kind, key: &ContentKey) -> Option<Vec<u8>> {
+    pub fn read(&self, kind: &Kind, key: &ContentKey) -> Option<Vec<u8>> {
         let path = self.path(kind, key);
         match fs::metadata(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
@@ -130,8 +75,8 @@ impl DiskCache {
         }
     }
 
-    /// The age only decides what goes first, and a folder may be readable but not writable.
-    fn touch(&self, kind: &Kind, key: &ContentKey) {
+    /// Says that an entry was used. The age only decides what goes first, and a folder may be readable but not writable.
+    pub fn touch(&self, kind: &Kind, key: &ContentKey) {
         let file = File::options().append(true).open(self.path(kind, key));
         let _ = file.and_then(|file| file.set_modified(SystemTime::now()));
     }

@@ -14,11 +14,11 @@ use std::io::{self, Write};
 use bytemuck::{AnyBitPattern, NoUninit, Pod, Zeroable};
 use serde::Serialize;
 
-use super::key::ContentKey;
+use super::content_key::ContentKey;
 
 /// What an entry holds.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Kind {
+pub struct Kind {
     pub magic: [u8; 8],
     /// Goes up with every change of the layout behind the head.
     pub format_version: u32,
@@ -59,7 +59,7 @@ impl Head {
 }
 
 /// An entry ready to be written; its pieces are not copied.
-pub(super) struct Sealed<'a> {
+pub struct Sealed<'a> {
     head: Head,
     description: Vec<u8>,
     pieces: Vec<&'a [u8]>,
@@ -74,7 +74,8 @@ impl<'a> Sealed<'a> {
         Ok(Self { head, description, pieces })
     }
 
-    pub fn len(&self) -> u64 {
+    /// Bytes of the file.
+    pub fn bytes(&self) -> u64 {
         let pieces: usize = self.pieces.iter().map(|piece| piece.len()).sum();
         (size_of::<Head>() + self.description.len() + pieces) as u64
     }
@@ -87,7 +88,7 @@ impl<'a> Sealed<'a> {
 }
 
 /// Description and pieces of an entry; `None` where its head or its hash is wrong.
-pub(super) fn open<'a>(bytes: &'a [u8], kind: &Kind, key: &ContentKey) -> Option<(&'a [u8], &'a [u8])> {
+pub fn open<'a>(bytes: &'a [u8], kind: &Kind, key: &ContentKey) -> Option<(&'a [u8], &'a [u8])> {
     let (head, rest) = bytes.split_at_checked(size_of::<Head>())?;
     let head: Head = bytemuck::pod_read_unaligned(head);
     let description_bytes = u32::from_le_bytes(head.description_bytes);
@@ -97,7 +98,7 @@ pub(super) fn open<'a>(bytes: &'a [u8], kind: &Kind, key: &ContentKey) -> Option
 }
 
 /// The first `count` values of `bytes`, taken off; allocates nothing where there are fewer.
-pub(super) fn take<T: AnyBitPattern + NoUninit>(bytes: &mut &[u8], count: u64) -> Option<Vec<T>> {
+pub fn take<T: AnyBitPattern + NoUninit>(bytes: &mut &[u8], count: u64) -> Option<Vec<T>> {
     let needed = usize::try_from(count).ok()?.checked_mul(size_of::<T>())?;
     let (taken, rest) = bytes.split_at_checked(needed)?;
     *bytes = rest;

@@ -31,9 +31,7 @@ pub use error::EngineError;
 use frame::Frame;
 use parts::Parts;
 use read::Results;
-pub use read::{
-    AccuracyReport, FilterReport, LevelReport, NodeAddress, NodeFacts, OctreeReport, StoredNode, WorldVoxels,
-};
+pub use read::{AccuracyReport, FilterReport, LevelReport, NodeAddress, NodeFacts, OctreeReport, StoredNode};
 use request::Request;
 use times::TimesBook;
 pub use times::{BuildTimes, PassTiming};

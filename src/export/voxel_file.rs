@@ -12,7 +12,7 @@ use ply_rs_bw::writer::Writer;
 use super::{ExportError, write_file};
 use crate::color::srgb_byte;
 use crate::data::grid::Grid;
-use crate::engine::WorldVoxels;
+use crate::data::world_voxels::WorldVoxels;
 
 /// Writes `cells` int32 `[n, 3]`, `occupancy` float32 `[n]`, `albedo` (linear) and `normal` float32
 /// `[n, 3]`, `grid_corner` float64 `[3]`, `span` float64.

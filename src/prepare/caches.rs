@@ -7,9 +7,10 @@ use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
+use super::kept::{Lookup, TextureHashes};
 use super::{PrepareError, Prepared, PreparedObject, lattice};
 use crate::data::voxel_cache::VoxelCache;
-use crate::disk_cache::{ContentKey, DiskCache, Lookup, TextureHashes};
+use crate::disk_cache::{ContentKey, DiskCache};
 use crate::progress::Progress;
 use crate::scene::{Material, Mesh, Motion, Scene};
 use crate::settings::VoxelizationMode;

@@ -8,6 +8,7 @@ mod exact;
 mod fold;
 mod framing;
 mod hidden;
+pub mod kept;
 mod lattice;
 mod lights;
 
@@ -15,9 +16,9 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
+use self::kept::TextureHashes;
 use crate::data::grid::Grid;
 use crate::data::voxel_cache::{Tile, VoxelCache};
-use crate::disk_cache::TextureHashes;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::bounds::Aabb;
 use crate::scene::{Motion, Object, Scene};

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::{Affine2, DVec3, Vec2, Vec4};
-use octolume::disk_cache::{ContentKey, DiskCache, Lookup, TextureHashes};
+use octolume::disk_cache::{ContentKey, DiskCache};
+use octolume::prepare::kept::{Lookup, TextureHashes};
 use octolume::progress::Progress;
 use octolume::scene::{AlphaMode, Material, TextureRef, Wrap};
 use octolume::settings::VoxelizationMode::{self, Conservative, Thin};

@@ -9,7 +9,8 @@ use super::surface::SurfaceReader;
 use super::{Options, PixelSampling, Reflection, Scene};
 use crate::accuracy::posed_triangles::PosedSurface;
 use crate::accuracy::triangle::PosedTriangle;
-use crate::disk_cache::{ContentKey, Writer};
+use crate::disk_cache::ContentKey;
+use crate::prepare::kept::ContentWriter;
 use crate::scene::{AlphaMode, LightKind, Material, Primitive};
 
 /// Goes up with every change of what a path brings.
@@ -18,7 +19,7 @@ const ALGORITHM_VERSION: u64 = 1;
 /// Of a scene ready to be traced.
 pub fn key(scene: &Scene) -> ContentKey {
     let Scene { triangles, readers, punctual, emitters: _, sky_nits, occlusion_cells, rays, options, textures } = scene;
-    let mut writer = Writer::new(textures);
+    let mut writer = ContentWriter::new(textures);
     writer.number(ALGORITHM_VERSION);
     let posed = triangles.tree().triangles();
     writer.number(posed.len() as u64);
@@ -42,7 +43,7 @@ pub fn key(scene: &Scene) -> ContentKey {
     writer.finish()
 }
 
-fn write_surface(writer: &mut Writer, reader: &SurfaceReader, surface: &PosedSurface) {
+fn write_surface(writer: &mut ContentWriter, reader: &SurfaceReader, surface: &PosedSurface) {
     let SurfaceReader { primitive, material, textures: _, tangents, emission, reflection: _ } = reader;
     let Primitive {
         material: _,  // its content is written, not its number
@@ -63,7 +64,7 @@ fn write_surface(writer: &mut Writer, reader: &SurfaceReader, surface: &PosedSur
     write_material(writer, material);
 }
 
-fn write_material(writer: &mut Writer, material: &Material) {
+fn write_material(writer: &mut ContentWriter, material: &Material) {
     let Material {
         name: _,
         base_color,
@@ -94,7 +95,7 @@ fn write_material(writer: &mut Writer, material: &Material) {
     slots.into_iter().for_each(|slot| writer.slot(*slot));
 }
 
-fn write_light(writer: &mut Writer, light: &Punctual) {
+fn write_light(writer: &mut ContentWriter, light: &Punctual) {
     let Punctual { kind, strength, position, direction, span } = light;
     let (number, [range, inner, outer]) = match *kind {
         LightKind::Directional => (0, [0.0; 3]),
@@ -109,7 +110,7 @@ fn write_light(writer: &mut Writer, light: &Punctual) {
     writer.list(&[*span]);
 }
 
-fn write_options(writer: &mut Writer, options: &Options) {
+fn write_options(writer: &mut ContentWriter, options: &Options) {
     let Options { size_px, seed, pixel, reflection } = options;
     writer.list(size_px);
     writer.number(*seed);

@@ -13,6 +13,7 @@
 mod brdf;
 mod camera;
 mod film;
+mod kept;
 mod key;
 mod lights;
 mod path;
@@ -28,8 +29,9 @@ use rayon::prelude::*;
 pub use film::{Film, PixelSums, StandardError, Term};
 
 use super::posed_triangles::{PosedSurface, PosedTriangles};
-use crate::disk_cache::{ContentKey, TextureHashes};
+use crate::disk_cache::ContentKey;
 use crate::lights::posed_lights;
+use crate::prepare::kept::TextureHashes;
 use crate::prepare::{LightsError, Prepared};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Material, Pose};

@@ -13,7 +13,6 @@ mod voxels;
 pub use inspect::{NodeAddress, NodeFacts, StoredNode};
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 pub(super) use results::Results;
-pub use voxels::WorldVoxels;
 
 use super::parts::Making;
 use super::parts::masks::{MaskCounts, Masks};

@@ -6,19 +6,8 @@ use super::super::{Engine, EngineError};
 use crate::data::grid::morton_cell;
 use crate::data::octree::{FULL_WEIGHT, Slot};
 use crate::data::packing::{unpack_normal, unpack_rgba8};
+use crate::data::world_voxels::WorldVoxels;
 use crate::gpu::GpuError;
-
-/// World cells sorted by Morton key; all vectors are equally long.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct WorldVoxels {
-    pub cells: Vec<[i32; 3]>,
-    /// 0 to 1.
-    pub occupancy: Vec<f32>,
-    /// Linear.
-    pub albedo: Vec<[f32; 3]>,
-    /// Unit length, or zero where normals cancel.
-    pub normal: Vec<[f32; 3]>,
-}
 
 /// Mean normals shorter than this have no direction: half a step of the packing.
 const CANCELLED_LENGTH: f64 = 0.5 / crate::data::packing::NORMAL_MAX as f64;

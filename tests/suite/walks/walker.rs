@@ -3,7 +3,8 @@
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::Duration;
 
-use octolume::engine::{Engine, EngineError, EngineState, WorldVoxels};
+use octolume::data::world_voxels::WorldVoxels;
+use octolume::engine::{Engine, EngineError, EngineState};
 use octolume::gpu::Gpu;
 use octolume::plan::Asked;
 use octolume::prepare::{ExactVoxels, Prepared};

@@ -1,4 +1,4 @@
-//! A path-traced picture as a file: see [`super::seal`] for its head.
+//! A path-traced picture as a file: see [`crate::disk_cache::Sealed`] for its head.
 //!
 //! ```text
 //! description  size, samples, seconds that they took
@@ -9,9 +9,8 @@ use std::io;
 
 use serde::{Deserialize, Serialize};
 
-use super::key::ContentKey;
-use super::seal::{self, Kind, Sealed, take};
-use crate::accuracy::path_tracer::Film;
+use super::Film;
+use crate::disk_cache::{ContentKey, DiskCache, Kind, Sealed, open, take};
 
 pub(super) const KIND: Kind = Kind { magic: *b"OCTPATHS", format_version: 1, extension: "film" };
 
@@ -29,21 +28,41 @@ pub(super) fn encode<'a>(key: &ContentKey, film: &'a Film) -> io::Result<Sealed<
 
 /// `None` where anything is wrong, or the picture is of another size.
 pub(super) fn decode(bytes: &[u8], key: &ContentKey, size_px: [u32; 2]) -> Option<Film> {
-    let (description, mut rest) = seal::open(bytes, &KIND, key)?;
+    let (description, mut rest) = open(bytes, &KIND, key)?;
     let (description, []) = postcard::take_from_bytes::<Description>(description).ok()? else { return None };
     let Description { size_px: stored_px, samples, secs } = description;
     let pixels = take(&mut rest, u64::from(size_px[0]) * u64::from(size_px[1]))?;
     (rest.is_empty() && stored_px == size_px).then(|| Film::from_pixels(size_px, samples, secs, pixels))?
 }
 
+impl DiskCache {
+    /// The picture of that key with no more than `most_samples` a pixel; `None` where there is none, or it is
+    /// damaged.
+    pub fn load_film(&self, key: &ContentKey, size_px: [u32; 2], most_samples: u32) -> Option<Film> {
+        let bytes = self.read(&KIND, key)?;
+        let film = decode(&bytes, key, size_px)?;
+        self.touch(&KIND, key);
+        (film.samples() <= most_samples).then_some(film)
+    }
+
+    /// Keeps a picture whose pixels all have as many samples; of several, the one with most is kept.
+    pub fn store_film(&self, key: &ContentKey, film: &Film) -> io::Result<()> {
+        let kept = self.load_film(key, film.size_px(), u32::MAX);
+        if kept.is_some_and(|kept| kept.samples() >= film.samples()) {
+            return Ok(());
+        }
+        self.write_entry(&KIND, key, &encode(key, film)?)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::disk_cache::{TextureHashes, Writer};
+    use crate::prepare::kept::{ContentWriter, TextureHashes};
 
     fn key(number: u64) -> ContentKey {
         let textures = TextureHashes::new(&[]);
-        let mut writer = Writer::new(&textures);
+        let mut writer = ContentWriter::new(&textures);
         writer.number(number);
         writer.finish()
     }

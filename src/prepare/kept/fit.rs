@@ -30,7 +30,7 @@ pub(super) fn fits(cache: &VoxelCache, input: &VoxelizeInput) -> bool {
 mod tests {
 
     use super::*;
-    use crate::disk_cache::entry::tests::cache;
+    use crate::prepare::kept::entry::tests::cache;
     use crate::scene::{Material, Primitive};
     use crate::stages::voxelize::{TexturePyramids, VoxelizePart};
 

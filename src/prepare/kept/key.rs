@@ -5,7 +5,6 @@
 //! whether voxelization reads it. Lists go in with their lengths, so that no two inputs run together.
 
 use std::collections::HashMap;
-use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 use blake3::{Hash, Hasher};
@@ -13,14 +12,11 @@ use bytemuck::NoUninit;
 use image::RgbaImage;
 use rayon::prelude::*;
 
+use crate::disk_cache::ContentKey;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{AlphaMode, Material, Primitive, Texture, TextureRef, Wrap};
 use crate::settings::VoxelizationMode;
 use crate::stages::voxelize::{ALGORITHM_VERSION, VoxelizeInput, VoxelizePart, textures_read};
-
-/// Equal keys mean equal caches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ContentKey(Hash);
 
 impl ContentKey {
     /// `textures` are those that `input` samples.
@@ -28,7 +24,7 @@ impl ContentKey {
         let default_material = Material::default();
         let part_materials = input.part_materials(&default_material);
         let VoxelizeInput { parts, materials: _, textures: _, mode, with_joints } = input;
-        let mut writer = Writer::new(textures);
+        let mut writer = ContentWriter::new(textures);
         writer.number(u64::from(ALGORITHM_VERSION));
         writer.number(match mode {
             VoxelizationMode::Thin => 0,
@@ -42,32 +38,21 @@ impl ContentKey {
         }
         writer.finish()
     }
-
-    pub(super) fn bytes(&self) -> &[u8; 32] {
-        self.0.as_bytes()
-    }
-}
-
-/// 64 hexadecimal digits.
-impl fmt::Display for ContentKey {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&self.0.to_hex())
-    }
 }
 
 /// Takes in, piece by piece, what a key is made from.
-pub struct Writer<'a> {
+pub struct ContentWriter<'a> {
     hasher: Hasher,
     textures: &'a TextureHashes,
 }
 
-impl<'a> Writer<'a> {
+impl<'a> ContentWriter<'a> {
     pub fn new(textures: &'a TextureHashes) -> Self {
         Self { hasher: Hasher::new(), textures }
     }
 
     pub fn finish(self) -> ContentKey {
-        ContentKey(self.hasher.finalize())
+        ContentKey::new(self.hasher.finalize())
     }
 
     pub fn number(&mut self, number: u64) {

@@ -1,4 +1,4 @@
-//! Voxels as a file: see [`super::seal`] for its head.
+//! Voxels as a file: see [`crate::disk_cache::Sealed`] for its head.
 //!
 //! ```text
 //! description  tiles, report, numbers of voxels, emissions and joints
@@ -13,9 +13,8 @@ use std::io;
 
 use serde::{Deserialize, Serialize};
 
-use super::key::ContentKey;
-use super::seal::{self, Kind, Sealed, take};
 use crate::data::voxel_cache::{CacheVoxel, Tile, VoxelCache, VoxelJoints, VoxelizeReport};
+use crate::disk_cache::{ContentKey, Kind, Sealed, open, take};
 
 pub(super) const KIND: Kind = Kind { magic: *b"OCTVOXEL", format_version: 1, extension: "voxels" };
 
@@ -50,7 +49,7 @@ fn sealed<'a>(key: &ContentKey, description: &Description, cache: &'a VoxelCache
 
 /// The cache in a file's bytes; `None` where anything about them is wrong.
 pub(super) fn decode(bytes: &[u8], key: &ContentKey) -> Option<VoxelCache> {
-    let (description, mut rest) = seal::open(bytes, &KIND, key)?;
+    let (description, mut rest) = open(bytes, &KIND, key)?;
     let (description, []) = postcard::take_from_bytes::<Description>(description).ok()? else { return None };
     let cache = VoxelCache {
         tiles: description.tiles,
@@ -67,7 +66,7 @@ pub(super) mod tests {
     use glam::IVec3;
 
     use super::*;
-    use crate::disk_cache::TextureHashes;
+    use crate::prepare::kept::TextureHashes;
     use crate::stages::voxelize::{TexturePyramids, VoxelizeInput};
 
     fn key() -> ContentKey {
@@ -119,7 +118,7 @@ pub(super) mod tests {
         let cache = cache();
         let encoded = encode(&key(), &cache).expect("encodes");
         let good = bytes(&encoded);
-        assert_eq!(good.len() as u64, encoded.len());
+        assert_eq!(good.len() as u64, encoded.bytes());
         assert_eq!(decode(&good, &key()), Some(cache));
         for cut in 0..good.len() {
             assert_eq!(decode(&good[..cut], &key()), None, "{cut} bytes");
