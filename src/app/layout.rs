@@ -9,7 +9,7 @@ use super::panels::cones::ConesPanel;
 use super::panels::light::LightPanel;
 use super::panels::reference::ReferencePanel;
 use super::panels::top_bar::TopBar;
-use super::panels::tree::TreePanel;
+use super::panels::tree_row::TreePanel;
 use super::panels::view::ViewPanel;
 use super::panels::{self, section};
 use super::{App, shortcuts, theme};

@@ -16,6 +16,7 @@ mod pool;
 mod read;
 mod request;
 mod run;
+mod shadow_layouts;
 mod times;
 
 use std::sync::Arc;

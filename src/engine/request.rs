@@ -170,7 +170,7 @@ impl Method {
         let matrices = prepared.fold((&settings.motion, &shot.pose), anchor, &shot.hidden);
         let emits = prepared.emits(lighting);
         let lights = posed_lights(&prepared.scene, &shot.pose, lighting, &shot.shown, emits);
-        let shadow_maps = super::parts::shadow_maps::layouts(prepared, &lights, settings);
+        let shadow_maps = super::shadow_layouts::layouts(prepared, &lights, settings);
         let facts = facts(prepared, &matrices, &shot.hidden, settings.cone_tracing.glossy_roughness);
         let scene = SceneFacts { lights: lights.len() as u32, picture_px: shot.size_px, ..facts };
         let contents = contents(prepared, shot, (&matrices, &light_params(prepared, &lights, lighting), &shadow_maps));

@@ -3,7 +3,7 @@
 
 use egui::{Button, Role, ScrollArea, Ui, WidgetInfo};
 
-use super::light_editor::Editor;
+use super::light_editor::{Editor, short_unit};
 use super::{light_method, nothing};
 use crate::app::commands::Command;
 use crate::app::scale_ticks::short;
@@ -96,13 +96,6 @@ fn shown_name(known: &KnownLight) -> String {
     match known.source {
         LightSource::Sun => "Own sun".to_owned(),
         LightSource::Node(_) | LightSource::Added(_) => known.name.clone(),
-    }
-}
-
-pub fn short_unit(kind: LightKind) -> &'static str {
-    match kind {
-        LightKind::Directional => "lx",
-        LightKind::Point { .. } | LightKind::Spot { .. } => "cd",
     }
 }
 

@@ -5,7 +5,6 @@ use std::ops::RangeInclusive;
 
 use egui::{ComboBox, Slider, TextEdit, Ui};
 
-use super::light::short_unit;
 use super::{choice, control, named_number, number, slider};
 use crate::lights::{KnownLight, LightSource};
 use crate::scene::{LightKind, Scene};
@@ -192,6 +191,13 @@ fn direction_from([azimuth, elevation]: [f64; 2]) -> [f64; 3] {
     let (sin, cos) = elevation.to_radians().sin_cos();
     let (across, along) = azimuth.to_radians().sin_cos();
     [-cos * across, -sin, -cos * along]
+}
+
+pub fn short_unit(kind: LightKind) -> &'static str {
+    match kind {
+        LightKind::Directional => "lx",
+        LightKind::Point { .. } | LightKind::Spot { .. } => "cd",
+    }
 }
 
 #[cfg(test)]

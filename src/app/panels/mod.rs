@@ -23,7 +23,7 @@ pub mod timeline;
 pub mod timings;
 pub mod top_bar;
 pub mod tree;
-mod tree_row;
+pub mod tree_row;
 pub mod view;
 
 use std::ops::RangeInclusive;

@@ -2,8 +2,8 @@
 
 use egui::{Grid, RichText, Ui};
 
-use super::light::short_unit;
-use super::tree::TreePanel;
+use super::light_editor::short_unit;
+use super::tree_row::TreePanel;
 use super::{fact, grouped};
 use crate::app::{outline, theme};
 use crate::prepare::PreparedObject;

@@ -4,22 +4,12 @@
 use egui::{RichText, ScrollArea, TextEdit, Ui};
 use egui_ltreeview::{Action, TreeView, TreeViewBuilder, TreeViewState};
 
-use super::tree_row::Row;
+use super::tree_row::{Offer, Row, TreePanel, offers};
 use super::{node_facts, nothing};
 use crate::app::commands::Command;
-use crate::app::outline::{self, Outline};
+use crate::app::outline;
 use crate::app::theme;
-use crate::prepare::Prepared;
 use crate::scene::Scene;
-use crate::settings::Visibility;
-
-/// What is shown; nothing here is kept.
-#[derive(Clone, Copy)]
-pub struct TreePanel<'a> {
-    pub prepared: &'a Prepared,
-    pub outline: &'a Outline,
-    pub visibility: &'a Visibility,
-}
 
 /// What a person has selected, searched and unfolded.
 #[derive(Default)]
@@ -82,30 +72,6 @@ pub fn ui(ui: &mut Ui, panel: TreePanel<'_>, state: &mut TreeState) -> Vec<Comma
         commands.extend(rows_ui(ui, panel, &shown, state));
     });
     commands
-}
-
-/// What can be done with a node, by its buttons and its menu.
-pub struct Offer {
-    pub enabled: bool,
-    pub name: &'static str,
-    pub tip: &'static str,
-    pub command: Command,
-}
-
-pub fn offers(panel: TreePanel<'_>, node: Option<usize>, is_shown: bool) -> [Offer; 4] {
-    let has_objects = node.is_some_and(|node| panel.outline.contents[node].objects > 0);
-    let (toggle, tip) = if is_shown {
-        ("Hide", "Hides the node and everything below it: it costs nothing then (H).")
-    } else {
-        ("Show", "Shows the node again (H).")
-    };
-    let offer = |enabled, name, tip, command| Offer { enabled, name, tip, command };
-    [
-        offer(node.is_some(), toggle, tip, Command::ToggleShown),
-        offer(has_objects, "Isolate", "Shows the node and everything below it alone (Shift+H).", Command::Isolate),
-        offer(node.is_some(), "Frame", "Brings the node into view (F, or a double click).", Command::Frame),
-        offer(!panel.visibility.shows_all(), "Show all", "Shows every node again (Alt+H).", Command::ShowAll),
-    ]
 }
 
 fn buttons_ui(ui: &mut Ui, panel: TreePanel<'_>, shown: &[bool], selected: Option<usize>) -> Vec<Command> {

@@ -3,9 +3,43 @@
 use egui::{Color32, Label, RichText, Ui};
 use egui_ltreeview::NodeConfig;
 
-use super::tree::{Offer, TreePanel, offers};
 use crate::app::commands::Command;
-use crate::app::{outline, theme};
+use crate::app::outline::{self, Outline};
+use crate::app::theme;
+use crate::prepare::Prepared;
+use crate::settings::Visibility;
+
+/// What is shown; nothing here is kept.
+#[derive(Clone, Copy)]
+pub struct TreePanel<'a> {
+    pub prepared: &'a Prepared,
+    pub outline: &'a Outline,
+    pub visibility: &'a Visibility,
+}
+
+/// What can be done with a node, by its buttons and its menu.
+pub struct Offer {
+    pub enabled: bool,
+    pub name: &'static str,
+    pub tip: &'static str,
+    pub command: Command,
+}
+
+pub fn offers(panel: TreePanel<'_>, node: Option<usize>, is_shown: bool) -> [Offer; 4] {
+    let has_objects = node.is_some_and(|node| panel.outline.contents[node].objects > 0);
+    let (toggle, tip) = if is_shown {
+        ("Hide", "Hides the node and everything below it: it costs nothing then (H).")
+    } else {
+        ("Show", "Shows the node again (H).")
+    };
+    let offer = |enabled, name, tip, command| Offer { enabled, name, tip, command };
+    [
+        offer(node.is_some(), toggle, tip, Command::ToggleShown),
+        offer(has_objects, "Isolate", "Shows the node and everything below it alone (Shift+H).", Command::Isolate),
+        offer(node.is_some(), "Frame", "Brings the node into view (F, or a double click).", Command::Frame),
+        offer(!panel.visibility.shows_all(), "Show all", "Shows every node again (Alt+H).", Command::ShowAll),
+    ]
+}
 
 /// Laid out only where it is on screen.
 pub struct Row<'a> {

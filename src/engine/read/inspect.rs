@@ -7,39 +7,13 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::super::{Engine, EngineError, Shown};
-use super::node_reader::{NodeReader, Payload};
+use super::node_reader::{NodeAddress, NodeReader, Payload};
 use crate::data::light::LIGHT_BYTES;
 use crate::gpu::GpuError;
 use crate::plan::Part;
 use crate::settings::View;
 use crate::stages::view::camera::PixelRays;
 use crate::stages::view::shown_level;
-
-/// A node by where it lies: a cell of a level, which has 2^level cells an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub struct NodeAddress {
-    pub level: u32,
-    pub cell: [u32; 3],
-}
-
-impl NodeAddress {
-    /// Whether it lies in a grid of 2^`depth` cells an axis.
-    pub fn is_in(&self, depth: u32) -> bool {
-        self.level <= depth && self.cell.iter().all(|cell| *cell >> self.level == 0)
-    }
-
-    /// The node above; `None` above the root.
-    pub fn parent(&self) -> Option<Self> {
-        Some(Self { level: self.level.checked_sub(1)?, cell: self.cell.map(|cell| cell / 2) })
-    }
-}
-
-impl std::fmt::Display for NodeAddress {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let [x, y, z] = self.cell;
-        write!(formatter, "level {}, cell {x},{y},{z}", self.level)
-    }
-}
 
 /// A node that a pointer leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -10,7 +10,8 @@ mod sample;
 mod surfaces;
 mod voxels;
 
-pub use inspect::{NodeAddress, NodeFacts, StoredNode};
+pub use inspect::{NodeFacts, StoredNode};
+pub use node_reader::NodeAddress;
 pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 pub(super) use results::Results;
 

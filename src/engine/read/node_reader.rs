@@ -3,13 +3,39 @@
 //! what should be. In: addresses and indices. Out: indices, addresses, payloads. Each read blocks.
 
 use bytemuck::Pod;
+use serde::Serialize;
 
 use super::Built;
-use super::inspect::NodeAddress;
 use crate::data::grid::{morton_cell, morton_key};
 use crate::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, NO_BLOCK, OctreeParams, Slot, TopologyBuffers};
 use crate::data::packing::{unpack_normal, unpack_position, unpack_rgba8};
 use crate::gpu::{Gpu, GpuError};
+
+/// A node by where it lies: a cell of a level, which has 2^level cells an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub struct NodeAddress {
+    pub level: u32,
+    pub cell: [u32; 3],
+}
+
+impl NodeAddress {
+    /// Whether it lies in a grid of 2^`depth` cells an axis.
+    pub fn is_in(&self, depth: u32) -> bool {
+        self.level <= depth && self.cell.iter().all(|cell| *cell >> self.level == 0)
+    }
+
+    /// The node above; `None` above the root.
+    pub fn parent(&self) -> Option<Self> {
+        Some(Self { level: self.level.checked_sub(1)?, cell: self.cell.map(|cell| cell / 2) })
+    }
+}
+
+impl std::fmt::Display for NodeAddress {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [x, y, z] = self.cell;
+        write!(formatter, "level {}, cell {x},{y},{z}", self.level)
+    }
+}
 
 pub struct NodeReader<'a> {
     pub gpu: &'a Gpu,

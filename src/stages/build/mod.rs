@@ -19,23 +19,27 @@ pub mod scan_sum_ref;
 pub mod size;
 pub mod size_ref;
 
+use bytemuck::{Pod, Zeroable};
+
+use crate::data::octree::MAX_DEPTH;
+use crate::gpu::{Constant, Mirror, constants, mirror};
+
 /// Counter of the split weight that fell outside the grid, in 2^-24 voxels.
 pub const COUNTER_CLIPPED: u32 = 0;
 /// Counter of the occupied nodes of level 0; those of levels 1 … depth follow.
 pub const COUNTER_OCCUPIED: u32 = 1;
 
+/// Values that one thread sums.
+pub const SCAN_CHUNK: u32 = 64;
+
 pub const CONSTANTS: &[Constant] = constants![
     integer COUNTER_CLIPPED,
     integer COUNTER_OCCUPIED,
+    integer SCAN_CHUNK,
 ];
 
 /// 64-bit counters, two words each, cleared before a build.
 pub const COUNTERS: u32 = COUNTER_OCCUPIED + MAX_DEPTH + 1;
-
-use bytemuck::{Pod, Zeroable};
-
-use crate::data::octree::MAX_DEPTH;
-use crate::gpu::{Constant, Mirror, constants, mirror};
 
 /// Uniform of the kernels that work on one level.
 #[repr(C)]
@@ -44,9 +48,18 @@ pub struct LevelParams {
     pub level: u32,
 }
 
+/// Mirror of `ScanParams` in the scan kernels.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct ScanParams {
+    pub count: u32,
+}
+
 pub const MIRRORS: &[Mirror] = &[
     mirror!(LevelParams, "build/reduce.wgsl", "ReduceParams", level),
     mirror!(LevelParams, "build/emit.wgsl", "EmitParams", level),
     mirror!(LevelParams, "averaging/average.wgsl", "AverageParams", level),
     mirror!(LevelParams, "light/average_light.wgsl", "AverageLightParams", level),
+    mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
+    mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
 ];

@@ -1,30 +1,9 @@
 //! Exclusive prefix sums of any length: sum chunks, scan the sums, spread them again. Serial inside
 //! a chunk of 64, which two CPU cores prefer to barriers.
 
-use bytemuck::{Pod, Zeroable};
-
-use super::{scan_spread, scan_sum};
+use super::{SCAN_CHUNK, scan_spread, scan_sum};
 use crate::data::octree::Slot;
-use crate::gpu::{Constant, Gpu, GpuBuffer, GpuError, Mirror, Recorder, constants, mirror};
-
-/// Values that one thread sums.
-pub const SCAN_CHUNK: u32 = 64;
-
-pub const CONSTANTS: &[Constant] = constants![
-    integer SCAN_CHUNK,
-];
-
-/// Mirror of `ScanParams` in the scan kernels.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct ScanParams {
-    pub count: u32,
-}
-
-pub const MIRRORS: &[Mirror] = &[
-    mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
-    mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
-];
+use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 
 /// What is summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

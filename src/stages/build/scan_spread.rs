@@ -1,6 +1,6 @@
 //! Second half of a prefix sum: from chunk prefixes to the prefixes of all values.
 
-use super::scan::{SCAN_CHUNK, ScanParams};
+use super::{SCAN_CHUNK, ScanParams};
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 
 /// `(values, chunk_prefixes, prefixes)`: the last is written.

@@ -1,6 +1,6 @@
 //! First half of a prefix sum: chunks to sums.
 
-use super::scan::{SCAN_CHUNK, ScanParams};
+use super::{SCAN_CHUNK, ScanParams};
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 
 pub fn record(

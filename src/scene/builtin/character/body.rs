@@ -1,55 +1,14 @@
 //! The parts of a person in the bind pose: five meshes, each of several parts.
 
 use glam::{DVec2, DVec3};
-use gltf::json::{Index, Material};
 
 use super::limbs;
-use super::weights::{self, Rule};
+use super::piece::{Cloths, Piece, level_tube, piece};
+use super::weights;
 use crate::scene::builtin::exact::{PI, TAU, cos, sin, smoothstep};
-use crate::scene::builtin::glb::Part;
 use crate::scene::builtin::shapes::Shape;
 use crate::scene::builtin::shapes::round::{Ring, lathe, loop_rope, torus, tube};
 use crate::scene::builtin::shapes::solid::{bevelled_block, sphere};
-
-/// What a person wears. `cape` and `tunic` are seen from both sides.
-#[derive(Clone, Copy, Debug)]
-pub struct Cloths {
-    pub skin: Index<Material>,
-    pub hair: Index<Material>,
-    pub tunic: Index<Material>,
-    pub trim: Index<Material>,
-    pub sleeves: Index<Material>,
-    pub trousers: Index<Material>,
-    pub leather: Index<Material>,
-    pub cape: Index<Material>,
-    pub dark: Index<Material>,
-    pub metal: Index<Material>,
-}
-
-/// A shape with its material and the rule that binds it.
-pub struct Piece {
-    shape: Shape,
-    material: Index<Material>,
-    rule: Rule,
-}
-
-impl Piece {
-    /// The part as a file stores it: shaded, with the influences of every vertex.
-    pub fn bound(self) -> Part {
-        let surface = self.shape.shaded(50.0);
-        let influences = surface.positions.iter().map(|&point| weights::influence(&(self.rule)(point))).collect();
-        Part { surface, material: self.material, influences }
-    }
-}
-
-pub(super) fn piece(shape: Shape, material: Index<Material>, rule: Rule) -> Piece {
-    Piece { shape, material, rule }
-}
-
-/// The same shape on the left and, mirrored, on the right.
-pub(super) fn pair(left: Shape, material: Index<Material>, rule: Rule) -> [Piece; 2] {
-    [piece(left.clone(), material, rule), piece(left.scaled(-1.0, 1.0, 1.0), material, rule)]
-}
 
 /// The meshes by name.
 pub fn meshes(cloths: &Cloths) -> Vec<(&'static str, Vec<Piece>)> {
@@ -60,16 +19,6 @@ pub fn meshes(cloths: &Cloths) -> Vec<(&'static str, Vec<Piece>)> {
         ("traveller head", head(cloths)),
         ("traveller gear", gear(cloths)),
     ]
-}
-
-/// A cross-section that closes a tube.
-pub(super) fn closed(ring: Ring) -> Ring {
-    Ring { right: DVec3::ZERO, forward: DVec3::ZERO, ..ring }
-}
-
-pub(super) fn level_tube(levels: &[[f64; 4]], segments: usize) -> Shape {
-    let rings: Vec<Ring> = levels.iter().map(|&[y, width, depth, z]| Ring::level(y, width, depth, z)).collect();
-    tube(&rings, segments)
 }
 
 fn torso(cloths: &Cloths) -> Vec<Piece> {

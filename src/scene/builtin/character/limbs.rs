@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::body::{Cloths, Piece, closed, level_tube, pair};
+use super::piece::{Cloths, Piece, closed, level_tube, pair};
 use super::weights;
 use crate::scene::builtin::shapes::Shape;
 use crate::scene::builtin::shapes::round::{Ring, tube};

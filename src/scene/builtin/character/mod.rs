@@ -7,6 +7,7 @@
 pub mod body;
 pub mod gait;
 mod limbs;
+pub mod piece;
 pub mod skeleton;
 mod weights;
 
@@ -16,7 +17,7 @@ use gltf::json::{Index, Node};
 use super::exact::at;
 use super::glb::{ClipWriter, GlbWriter, Part, Track};
 use crate::scene::Trs;
-use body::{Cloths, Piece};
+use piece::{Cloths, Piece};
 use skeleton::{JOINTS, Pose};
 
 /// A person placed in a file.

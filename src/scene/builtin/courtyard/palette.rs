@@ -2,7 +2,7 @@
 
 use gltf::json::{Index, Material};
 
-use super::super::character::body::Cloths;
+use super::super::character::piece::Cloths;
 use super::super::glb::{GlbWriter, Paint};
 use super::super::textures;
 
