@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use super::frame::{Frame, pinned};
 use super::request::Request;
-use super::{Engine, EngineError, EngineState, OnScreen, Shown};
+use super::state::{FinishedFrame, OnScreen};
+use super::{Engine, EngineError, EngineState};
 use crate::plan::{FramePlan, Key, Keys, Part};
 
 impl Engine {
@@ -66,7 +67,7 @@ impl Engine {
         let pinned = pinned(&plan, self.keys_on_screen());
         while self.gpu.bytes_in_use() > self.kept_bytes && self.parts.drop_oldest(&pinned) {}
         let results = self.results(&request, plan.keys());
-        self.shown = Some(Shown { request, keys: plan.keys().to_vec(), plan, number, results });
+        self.shown = Some(FinishedFrame { request, keys: plan.keys().to_vec(), plan, number, results });
     }
 
     fn keys_on_screen(&self) -> &[Key] {

@@ -75,7 +75,7 @@ pub(super) fn not_drawn_by(pass: Pass, asked: &Asked) -> Option<&'static str> {
 
 /// What of the look any picture depends on.
 #[derive(Serialize)]
-struct Shown {
+struct LookOfPicture {
     view: View,
     color: ColorBy,
     level: Option<u32>,
@@ -89,7 +89,7 @@ struct Shown {
     shadow_map: usize,
 }
 
-impl Shown {
+impl LookOfPicture {
     /// All of it but what is measured, linked, or in the camera's digest.
     fn of(look: &Look) -> Self {
         let Look { view, color, level, alpha, voxel_edges, shaded, exposure_stops, .. } = *look;
@@ -103,7 +103,7 @@ pub(super) fn picture(asked: &Asked, keys: &Keys) -> Wanted {
     unless(not_drawn_by(pass, asked))?;
     let key = Key::of(Part::Picture).digest("the camera moved", asked.contents.camera);
     let key = key.shot("another size", &asked.scene.picture_px);
-    let key = key.shot("another look", &Shown::of(&asked.settings.look));
+    let key = key.shot("another look", &LookOfPicture::of(&asked.settings.look));
     Ok(shown_parts(pass, asked, keys, key)?.build())
 }
 

@@ -122,7 +122,7 @@ parts! {
     Exposure => exposure: composed::Exposure,
     ExactBits => exact_bits: exact::ExactBits,
     ExactMasks => exact_masks: exact::ExactMasks,
-    Picture => pictures: picture::Shown,
+    Picture => pictures: picture::Drawn,
     Comparison => comparisons: exact::Comparison,
 }
 

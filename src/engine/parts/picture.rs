@@ -17,7 +17,7 @@ use crate::stages::view::show_surfaces::{self, ShowSurfacesParams, ShownExposure
 use crate::stages::view::{GHOST_COLORS, Palette, Picture, show_shadow, shown_color, slice};
 
 #[derive(Debug, Default)]
-pub struct Shown {
+pub struct Drawn {
     pub picture: Option<Picture>,
     /// What triangles need beside it to hide one another.
     depth: Option<GpuTexture>,
@@ -26,7 +26,7 @@ pub struct Shown {
 
 type Recorded = Result<(), EngineError>;
 
-impl Made for Shown {
+impl Made for Drawn {
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -53,7 +53,7 @@ impl Made for Shown {
     }
 }
 
-impl Shown {
+impl Drawn {
     fn mesh(&mut self, making: &Making<'_>, parts: &Parts, frame: &mut Recorder, picture: &Picture) -> Recorded {
         let (gpu, shot, grid) = (making.gpu, &making.request.shot, making.request.grid());
         let depth = match self.depth.take().filter(|depth| depth.size_px() == shot.size_px) {

@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::super::{Engine, EngineError, Shown};
+use super::super::state::FinishedFrame;
+use super::super::{Engine, EngineError};
 use super::node_reader::{NodeAddress, NodeReader, Payload};
 use crate::data::light::LIGHT_BYTES;
 use crate::gpu::GpuError;
@@ -105,7 +106,8 @@ impl Engine {
 
     /// Nothing is being built or drawn, and what is shown is what was asked for last.
     fn is_at_rest(&self) -> bool {
-        let is_shown = |shown: &Shown| self.wanted.as_ref().is_some_and(|wanted| Arc::ptr_eq(wanted, &shown.request));
+        let is_shown =
+            |shown: &FinishedFrame| self.wanted.as_ref().is_some_and(|wanted| Arc::ptr_eq(wanted, &shown.request));
         self.frame.is_none() && self.shown.as_ref().is_some_and(is_shown)
     }
 

@@ -12,13 +12,12 @@ mod voxels;
 
 pub use inspect::{NodeFacts, StoredNode};
 pub use node_reader::NodeAddress;
-pub use report::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
-pub(super) use results::Results;
 
+use super::Engine;
 use super::parts::Making;
 use super::parts::masks::{MaskCounts, Masks};
 use super::parts::payload::Payload;
-use super::{Engine, Shown};
+use super::state::FinishedFrame;
 use crate::gpu::GpuError;
 use crate::plan::{Keys, Part};
 
@@ -44,7 +43,7 @@ impl Engine {
     }
 
     /// For kernels that run beside the frame that is shown.
-    fn making<'a>(&'a self, shown: &'a Shown, part: Part) -> Option<Making<'a>> {
+    fn making<'a>(&'a self, shown: &'a FinishedFrame, part: Part) -> Option<Making<'a>> {
         let (request, keys) = (&*shown.request, shown.keys.first()?);
         Some(Making {
             gpu: &self.gpu,

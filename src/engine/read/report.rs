@@ -1,72 +1,13 @@
 //! What the last build made, in numbers.
 
-use serde::Serialize;
-
+use super::super::Engine;
+use super::super::reports::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 use super::super::request::Request;
-use super::super::{BuildTimes, Engine};
 use super::Built;
 use crate::data::light::{IRRADIANCE_BYTES, light_bytes};
 use crate::data::octree::{FULL_WEIGHT, OctreeParams, PointerLayout};
 use crate::plan::{Keys, Part, Pass, calls_for};
 use crate::settings::Filter;
-
-/// One level of the octree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct LevelReport {
-    pub level: u32,
-    /// Stored nodes.
-    pub nodes: u64,
-    /// Nodes with something below them.
-    pub occupied: u64,
-    /// Stored nodes that hold nothing: kept so that interpolation finds every corner, or because a
-    /// sibling, or the dense level, is stored.
-    pub dummies: u64,
-    pub bytes: u64,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct OctreeReport {
-    pub filter: Filter,
-    pub levels: Vec<LevelReport>,
-    /// Moved voxels.
-    pub voxels: u64,
-    /// Weights are in 2^-24 voxels: kept + clipped = 2^24 · voxels, and what occupancies above
-    /// one lost is excess: kept − excess = occupancy.
-    pub kept_weight: u64,
-    pub clipped_weight: u64,
-    pub excess_weight: u64,
-    pub bytes: u64,
-    /// Light of all nodes and irradiance of all leaves; 0 while there is none.
-    pub light_bytes: u64,
-    /// What neighbour pointers take, whether they are made or not: stored once a block, and once a node.
-    pub pointer_bytes: [u64; 2],
-}
-
-/// Moved voxels against the exact voxelization of the same pose.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct FilterReport {
-    pub filter: Filter,
-    /// Transform and build, all kernels.
-    pub kernel_ms: f64,
-    /// The same of the last builds with this filter.
-    #[serde(skip)]
-    pub times: BuildTimes,
-    pub voxels: u64,
-    pub leaves: u64,
-    pub nodes: u64,
-    pub bytes: u64,
-    /// Exact cells that no moved voxel reaches, and moved cells that are not exact ones; `None`
-    /// while the exact set is not known.
-    pub holes: Option<u64>,
-    pub spill: Option<u64>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct AccuracyReport {
-    pub nearest: Option<FilterReport>,
-    pub split: Option<FilterReport>,
-    pub exact_cells: Option<u64>,
-}
 
 /// Payload and child pointer of an inner node; record of a leaf; key, counts and starts of a block.
 const INNER_NODE_BYTES: u64 = 16 + 4;

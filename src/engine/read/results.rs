@@ -1,21 +1,12 @@
 //! What is told of a frame: taken down when it is finished, before the next one overwrites what it was made of.
 
+use super::super::reports::Results;
 use super::super::request::Request;
-use super::super::{AccuracyReport, Engine, OctreeReport, PassTiming};
+use super::super::{Engine, PassTiming};
 use crate::color::luminance;
 use crate::plan::{Keys, Part, light_shown, only_opacity};
 use crate::settings::{SurfaceView, View};
 use crate::stages::view::{MEAN_SHOWN_AS, slice};
-
-#[derive(Clone, Debug)]
-pub struct Results {
-    pub octree: Option<OctreeReport>,
-    pub accuracy: Option<AccuracyReport>,
-    pub timings: Vec<PassTiming>,
-    pub exposure: f64,
-    pub value_range: Option<[f64; 2]>,
-    pub glossy_tiles: u32,
-}
 
 impl Engine {
     /// Of a frame that has just been finished, by the keys of its methods.

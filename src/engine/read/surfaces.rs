@@ -1,6 +1,7 @@
 //! Brings back what the view of surfaces shows, or a part of it.
 
-use super::super::{Engine, EngineError, Shown};
+use super::super::state::FinishedFrame;
+use super::super::{Engine, EngineError};
 use super::missing;
 use crate::gpu::{Job, Recorder};
 use crate::plan::{ConesAsked, Part};
@@ -10,9 +11,10 @@ use crate::stages::surface::RADIANCE_BYTES;
 
 impl Engine {
     /// The finished frame, where it shows surfaces.
-    fn shown_surfaces(&self) -> Option<&Shown> {
-        let shows =
-            |shown: &&Shown| shown.request.settings().look.view == View::Surfaces && !shown.request.shows_nothing();
+    fn shown_surfaces(&self) -> Option<&FinishedFrame> {
+        let shows = |shown: &&FinishedFrame| {
+            shown.request.settings().look.view == View::Surfaces && !shown.request.shows_nothing()
+        };
         self.shown.as_ref().filter(shows)
     }
 
@@ -41,7 +43,7 @@ impl Engine {
         Ok(Some(self.gpu.read(&into, 0..into.bytes())?))
     }
 
-    fn has_made(&self, shown: &Shown, surface: SurfaceView) -> bool {
+    fn has_made(&self, shown: &FinishedFrame, surface: SurfaceView) -> bool {
         let has = |part: Part| shown.keys.first().is_some_and(|keys| keys.get(part).is_some());
         match surface {
             SurfaceView::Final => shown.request.settings().look.surface == SurfaceView::Final,
