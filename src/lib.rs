@@ -7,24 +7,24 @@
 //!                                                     ::averaging
 //! ```
 //!
-//! Modules in the order of the flow. The core knows nothing of egui: window and command line
-//! drive the same engine with the same settings.
+//! Modules in the order of the flow: each imports only what stands above it here, which a test sees to. The core
+//! knows nothing of egui: window and command line drive the same engine with the same settings.
 
-pub mod accuracy;
-#[cfg(feature = "gui")]
-pub mod app;
-pub mod color;
-pub mod data;
 pub mod digest;
-pub mod disk_cache;
-pub mod engine;
-pub mod export;
-pub mod gpu;
-pub mod lights;
-pub mod plan;
-pub mod prepare;
+pub mod spread;
 pub mod progress;
+pub mod color;
+pub mod gpu;
+pub mod disk_cache;
 pub mod scene;
 pub mod settings;
-pub mod spread;
+pub mod data;
+pub mod lights;
 pub mod stages;
+pub mod prepare;
+pub mod plan;
+pub mod accuracy;
+pub mod engine;
+pub mod export;
+#[cfg(feature = "gui")]
+pub mod app;

@@ -36,7 +36,7 @@ pub use part::Part;
 pub use pass::Pass;
 pub use rows::{Row, State};
 pub use surfaces::ConesAsked;
-pub use views::{light_shown, shows_light};
+pub use views::{light_shown, shows_light, tells_mean_light};
 pub use voxels::layout_of;
 
 /// A part that a frame makes.
@@ -114,10 +114,13 @@ pub fn calls_for(pass: Pass, asked: &Asked) -> bool {
     rows::left_out(pass, asked).is_none()
 }
 
-/// Shown or reported itself, not only through what is made from it.
+/// Shown or reported itself, not only through what is made from it: counts of masks, words of the node under the
+/// cursor, the exposure of a picture. Where it was dropped for want of memory, it is made again.
 fn is_looked_at(part: Part, asked: &Asked) -> bool {
     match part {
-        Part::Picture | Part::Comparison | Part::Payload => true,
+        Part::Masks | Part::Topology | Part::Payload | Part::Comparison | Part::Picture => true,
+        Part::ComposedLight | Part::Exposure | Part::GlossyTiles => true,
+        Part::Light | Part::Irradiance => part == light_shown(asked) && tells_mean_light(asked),
         Part::BlockLinks | Part::NodeLinks => voxels::links_are_shown(part, asked),
         _ => false,
     }

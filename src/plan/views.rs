@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::keys::{Keys, Wanted};
-use super::light::store_skipped;
+use super::light::{only_opacity, store_skipped};
 use super::voxels::{followed, from_octree, lookup, octree_skipped, unless};
 use super::{Asked, Key, KeyBuilder, Part, Pass, WantedFor};
 use crate::settings::{AlphaRule, ColorBy, Look, Slice, SliceValue, SurfaceView, ToneCurve, View};
@@ -151,4 +151,9 @@ pub fn light_shown(asked: &Asked) -> Part {
         _ => look.color == ColorBy::Irradiance,
     };
     if is_irradiance { Part::Irradiance } else { Part::Light }
+}
+
+/// Exposure, or the scale of a slice, follow the mean of the light that is shown.
+pub fn tells_mean_light(asked: &Asked) -> bool {
+    shows_light(asked) || (asked.shows(View::Slice) && !only_opacity(asked))
 }

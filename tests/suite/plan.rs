@@ -10,7 +10,7 @@ use octolume::plan::{Asked, Contents, FramePlan, Held, Part, Pass, SceneFacts, S
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{OrbitCamera, Scene, Trs};
-use octolume::settings::{ColorBy, Filter, Settings, View};
+use octolume::settings::{ColorBy, Filter, Settings, SliceValue, View};
 use proptest::prelude::*;
 
 use crate::scenes::{at, cube_scene, skinned_scene, sliding_scene};
@@ -73,6 +73,29 @@ pub fn reason(plan: &FramePlan, pass: Pass) -> (State, &'static str) {
 
 fn with(passes: &[Pass]) -> Vec<Pass> {
     Pass::ALL.into_iter().filter(|pass| passes.contains(pass)).collect()
+}
+
+/// Reports, the exposure and the node under the cursor are read from parts that the picture itself no longer needs.
+#[test]
+fn what_is_told_of_a_frame_is_made_again_where_it_was_dropped() {
+    let mut slice = Settings::default();
+    (slice.look.view, slice.look.slice.value) = (View::Slice, SliceValue::Radiance);
+    let mut surfaces = Settings::default();
+    surfaces.look.view = View::Surfaces;
+    let voxels = [Part::Masks, Part::Topology, Part::Payload];
+    let lit = [Part::ComposedLight, Part::Exposure, Part::GlossyTiles];
+    let scene = SceneFacts { lights: 1, glossy: true, ..RIGID };
+    for (settings, told) in [(&slice, [&voxels[..], &[Part::Light]].concat()), (&surfaces, [voxels, lit].concat())] {
+        let asked = [Asked::new(scene, settings.clone())];
+        let all = plan(&asked, &Held::default());
+        for part in told {
+            let mut held = Held::default();
+            let kept = all.to_run().iter().filter(|planned| planned.part != part);
+            kept.for_each(|planned| held.hold(planned.part, planned.key.clone()));
+            let made: Vec<Part> = plan(&asked, &held).to_run().iter().map(|planned| planned.part).collect();
+            assert_eq!(made, [part], "{:?}", settings.look.view);
+        }
+    }
 }
 
 #[test]

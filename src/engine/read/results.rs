@@ -4,7 +4,7 @@ use super::super::reports::Results;
 use super::super::request::Request;
 use super::super::{Engine, PassTiming};
 use crate::color::luminance;
-use crate::plan::{Keys, Part, light_shown, only_opacity};
+use crate::plan::{Keys, Part, light_shown, tells_mean_light};
 use crate::settings::{SurfaceView, View};
 use crate::stages::view::{MEAN_SHOWN_AS, slice};
 
@@ -45,8 +45,10 @@ impl Engine {
     /// reads opacity alone, whatever light was stored beside it before.
     fn mean_light(&self, request: &Request, keys: &Keys) -> Option<f64> {
         let asked = &request.shown().asked;
+        if !tells_mean_light(asked) {
+            return None;
+        }
         let [r, g, b, opacity] = match light_shown(asked) {
-            _ if only_opacity(asked) => return None,
             Part::Irradiance => self.parts.irradiance.finished(keys.get(Part::Irradiance)?)?.root,
             _ => self.parts.light.finished(keys.get(Part::Light)?)?.root,
         };

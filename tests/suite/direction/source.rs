@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::Visit;
 
 /// "gpu::job" for src/gpu/job.rs, "" for src/lib.rs.
@@ -65,6 +66,30 @@ impl File {
         file
     }
 
+    /// Paths in what a macro is given, which is not parsed: names with `::` between them.
+    fn tokens(&mut self, tokens: TokenStream) {
+        let (mut names, mut colons): (Vec<String>, u32) = (Vec::new(), 0);
+        for token in tokens {
+            match token {
+                TokenTree::Ident(name) if colons == 2 => names.push(name.to_string()),
+                TokenTree::Punct(punct) if punct.as_char() == ':' => {
+                    colons += 1;
+                    continue;
+                }
+                other => {
+                    self.paths.extend(self.absolute(&std::mem::take(&mut names)));
+                    match other {
+                        TokenTree::Ident(name) => names = vec![name.to_string()],
+                        TokenTree::Group(group) => self.tokens(group.stream()),
+                        TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+                    }
+                }
+            }
+            colons = 0;
+        }
+        self.paths.extend(self.absolute(&names));
+    }
+
     /// From the root of this crate, if it is a path into it.
     fn absolute(&self, path: &[String]) -> Option<Vec<String>> {
         let (first, rest) = path.split_first()?;
@@ -124,6 +149,11 @@ impl<'ast> Visit<'ast> for File {
             self.paths.push(path);
         }
         syn::visit::visit_path(self, path);
+    }
+
+    fn visit_macro(&mut self, invoked: &'ast syn::Macro) {
+        self.tokens(invoked.tokens.clone());
+        syn::visit::visit_macro(self, invoked);
     }
 }
 
