@@ -6,26 +6,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use bytemuck::{Pod, Zeroable};
-use wgpu_profiler::{GpuProfiler, GpuProfilerQuery, GpuProfilerSettings};
+use wgpu_profiler::{GpuProfiler, GpuProfilerQuery};
 
 use super::bindings::buffer_binding;
 use super::mirror::{Mirror, mirror};
 use super::read_back::ReadBack;
 use super::recorder::{Command, Pass, UNIFORM_ALIGNMENT};
-use super::{Gpu, GpuBuffer, GpuError, lock, raster};
-
-/// Thread ranges of a slice have this many places.
-pub(super) const MAX_PIECES: usize = 256;
-const LABEL: &str = "job scratch";
-
-/// Units `first..end` of a command: threads of a pass, bytes of a clear or copy.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
-    pub command: usize,
-    pub first: u64,
-    pub end: u64,
-    pub estimated_ns: f64,
-}
+use super::scratch::{LABEL, Piece, Scratch, end_query};
+use super::{Gpu, GpuBuffer, GpuError, encode_raster, raster};
 
 /// `Threads` of `shared/threads.wgsl`.
 #[repr(C)]
@@ -36,44 +24,6 @@ pub struct Threads {
 }
 
 pub const MIRRORS: &[Mirror] = &[mirror!(Threads, "shared/threads.wgsl", "Threads", first, end)];
-
-/// Buffers and queries that one job at a time needs; kept for the next.
-pub(super) struct Scratch {
-    pub uniforms: GpuBuffer,
-    ranges: GpuBuffer,
-    /// `None` where the device has no timestamps.
-    pub profiler: Option<GpuProfiler>,
-}
-
-impl Scratch {
-    /// One that is free, or a new one; holds these uniforms then.
-    pub fn take(gpu: &Gpu, uniforms: &[u8]) -> Result<Self, GpuError> {
-        let bytes = uniforms.len() as u64;
-        let free = {
-            let mut free = lock(&gpu.scratch);
-            let fitting = free.iter().position(|scratch| scratch.uniforms.bytes() >= bytes);
-            fitting.map(|index| free.swap_remove(index))
-        };
-        let scratch = match free {
-            Some(scratch) => scratch,
-            None => Self::create(gpu, bytes)?,
-        };
-        gpu.write(&scratch.uniforms, 0, uniforms)?;
-        Ok(scratch)
-    }
-
-    fn create(gpu: &Gpu, uniform_bytes: u64) -> Result<Self, GpuError> {
-        let usage = wgpu::BufferUsages::UNIFORM;
-        let range_bytes = (MAX_PIECES * UNIFORM_ALIGNMENT) as u64;
-        let timestamps = gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
-        let profiler = || GpuProfiler::new(&gpu.device, GpuProfilerSettings::default());
-        Ok(Self {
-            uniforms: gpu.uncounted_buffer(LABEL, uniform_bytes.next_power_of_two().max(4096), usage)?,
-            ranges: gpu.uncounted_buffer(LABEL, range_bytes, usage)?,
-            profiler: timestamps.then(profiler).transpose().map_err(|e| gpu.refused("timestamps", &e.to_string()))?,
-        })
-    }
-}
 
 /// Submits the pieces, and behind them the reads. The returned number becomes the nanoseconds the pieces took.
 pub(super) fn submit(
@@ -94,7 +44,9 @@ pub(super) fn submit(
                 })??;
             }
             Command::Raster { target, draws } => {
-                gpu.checked(raster::LABEL, || raster::encode(gpu, &mut encoder, (target, draws), piece, scratch))??;
+                gpu.checked(raster::LABEL, || {
+                    encode_raster::encode(gpu, &mut encoder, (target, draws), piece, scratch)
+                })??;
             }
             command => encode_transfer(&mut encoder, command, piece, scratch),
         }
@@ -173,12 +125,6 @@ fn encode_transfer(encoder: &mut wgpu::CommandEncoder, command: &Command, piece:
         Command::Pass(_) | Command::Raster { .. } => {}
     }
     end_query(encoder, query, scratch);
-}
-
-pub(super) fn end_query(encoder: &mut wgpu::CommandEncoder, query: Option<GpuProfilerQuery>, scratch: &Scratch) {
-    if let (Some(query), Some(profiler)) = (query, &scratch.profiler) {
-        profiler.end_query(encoder, query);
-    }
 }
 
 /// Workgroups of a range, in two dimensions once one has too few.

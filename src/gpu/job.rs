@@ -12,10 +12,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use super::cost::{KernelTiming, PASS_NS};
-use super::encode::{self, MAX_PIECES, Piece, Scratch};
 use super::read_back::ReadBack;
 use super::recorder::{Command, Recorder};
-use super::{Gpu, GpuBuffer, GpuError, counted, lock};
+use super::scratch::{MAX_PIECES, Piece, Scratch};
+use super::{Gpu, GpuBuffer, GpuError, counts, encode, lock};
 
 /// A cut shorter than this part of the budget is not worth a submission's place.
 const MIN_PART_OF_BUDGET: f64 = 0.1;
@@ -66,7 +66,7 @@ impl Job {
         let is_new =
             |command: &Command| command.shape().0 > 0 && command.cost().is_some_and(|cost| !lock(cost).is_measured());
         let held_back = if recorder.commands.iter().any(is_new) { CALLS_BEFORE_FIRST_RUN } else { 0 };
-        let counted = counted::buffers(&recorder.commands);
+        let counted = counts::buffers(&recorder.commands);
         let wanted_back = recorder.reads.iter().cloned().chain(counted).collect();
         Self {
             recorder,
@@ -223,7 +223,7 @@ impl Job {
         let Some(read_back) = &self.read_back else { return Ok(true) };
         let Some(mut bytes) = read_back.take(gpu)? else { return Ok(false) };
         let counted = bytes.split_off(self.recorder.reads.len());
-        counted::put_down(&self.recorder.commands, &counted, &mut self.timings);
+        counts::put_down(&self.recorder.commands, &counted, &mut self.timings);
         self.reads = bytes;
         Ok(true)
     }

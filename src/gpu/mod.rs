@@ -14,8 +14,10 @@ mod command;
 mod constant;
 mod cost;
 mod counted;
+mod counts;
 mod device;
 mod encode;
+mod encode_raster;
 mod error;
 mod job;
 mod kernel;
@@ -24,8 +26,10 @@ mod mirror;
 mod pass;
 mod raster;
 mod read_back;
+mod reading;
 mod recorder;
 mod reflect;
+mod scratch;
 mod shaders;
 mod texture;
 
@@ -34,7 +38,7 @@ use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 pub use bindings::{BindingKind, KernelBinding};
-pub use buffer::{GpuBuffer, PendingRead};
+pub use buffer::GpuBuffer;
 pub(crate) use constant::constants;
 pub use constant::{Constant, Number};
 pub use cost::KernelTiming;
@@ -48,6 +52,7 @@ pub use mirror::Mirror;
 pub(crate) use mirror::mirror;
 pub use pass::PassBuilder;
 pub use raster::{DEPTH_FORMAT, RasterKernel, RasterTarget};
+pub use reading::PendingRead;
 pub use recorder::{Recorder, Uniform};
 pub use reflect::parse;
 pub use shaders::{Shaders, Source};
@@ -68,7 +73,7 @@ pub struct Gpu {
     registry: memory::Registry,
     serial: AtomicU64,
     counters: Mutex<Counters>,
-    scratch: Mutex<Vec<encode::Scratch>>,
+    scratch: Mutex<Vec<scratch::Scratch>>,
     health: Arc<Health>,
 }
 

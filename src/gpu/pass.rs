@@ -23,6 +23,18 @@ pub struct PassBuilder<'a, K> {
     counted: Option<CountedBy>,
 }
 
+impl Recorder {
+    /// Starts a pass; [`PassBuilder::dispatch`] ends it.
+    pub fn pass(&mut self, kernel: &Arc<Kernel>) -> PassBuilder<'_, Kernel> {
+        PassBuilder::new(self, kernel)
+    }
+
+    /// Starts a draw into the attachments recorded last; [`PassBuilder::draw`] ends it.
+    pub fn triangles(&mut self, kernel: &Arc<RasterKernel>) -> PassBuilder<'_, RasterKernel> {
+        PassBuilder::new(self, kernel)
+    }
+}
+
 impl<'a, K> PassBuilder<'a, K> {
     pub(super) fn new(recorder: &'a mut Recorder, kernel: &Arc<K>) -> Self {
         Self { recorder, kernel: Arc::clone(kernel), named: Vec::new(), bytes_moved: 0, counted: None }

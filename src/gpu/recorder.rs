@@ -8,7 +8,6 @@ use bytemuck::Pod;
 use super::bindings::Bound;
 use super::counted::CountedBy;
 use super::kernel::Kernel;
-use super::pass::PassBuilder;
 use super::raster::{RasterKernel, RasterTarget};
 use super::{GpuBuffer, GpuError};
 
@@ -66,22 +65,12 @@ impl Recorder {
         self.group = group;
     }
 
-    /// Starts a pass; [`PassBuilder::dispatch`] ends it.
-    pub fn pass(&mut self, kernel: &Arc<Kernel>) -> PassBuilder<'_, Kernel> {
-        PassBuilder::new(self, kernel)
-    }
-
     /// Clears attachments; the draws that follow go into them.
     pub fn raster(&mut self, target: RasterTarget) {
         self.push(Ok(Command::Raster { target, draws: Vec::new() }));
     }
 
-    /// Starts a draw into the attachments recorded last; [`PassBuilder::draw`] ends it.
-    pub fn triangles(&mut self, kernel: &Arc<RasterKernel>) -> PassBuilder<'_, RasterKernel> {
-        PassBuilder::new(self, kernel)
-    }
-
-    /// Writes a uniform down once, for [`PassBuilder::shared`] in this recording.
+    /// Writes a uniform down once, for [`super::PassBuilder::shared`] in this recording.
     pub fn uniform<T: Pod>(&mut self, value: &T) -> Uniform {
         let start = self.uniforms.len();
         self.uniforms.extend_from_slice(bytemuck::bytes_of(value));

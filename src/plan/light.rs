@@ -1,25 +1,13 @@
 //! Rules of the parts that light the octree. Nobody looks at light, or there is none: no part, no buffer.
 
+use super::effects::{ConesAsked, emits, has_sky, is_lit, only_opacity, shows_direct};
 use super::keys::{Keys, Wanted};
-use super::surfaces::{ConesAsked, shows_direct};
 use super::voxels::{from_octree, from_voxels, octree_skipped, unless};
 use super::{Asked, Held, Key, Part, Pass, WantedFor};
-use crate::settings::lighting::{Lighting, Shadows};
+use crate::settings::lighting::Shadows;
 use crate::settings::{ColorBy, SliceValue, View};
 
 const ONLY_OPACITY: &str = "only opacity is looked at";
-
-pub(super) fn has_sky(lighting: &Lighting) -> bool {
-    lighting.sky_nits.iter().any(|channel| *channel > 0.0)
-}
-
-pub(super) fn emits(asked: &Asked) -> bool {
-    asked.scene.emissive_voxels > 0 && asked.settings.lighting.emission > 0.0
-}
-
-pub(super) fn is_lit(asked: &Asked) -> bool {
-    asked.scene.lights > 0 || has_sky(&asked.settings.lighting) || emits(asked)
-}
 
 /// Why the octree keeps no light, if so. Slices and cones sample opacity from the same store.
 pub(super) fn store_skipped(asked: &Asked) -> Option<&'static str> {
@@ -32,15 +20,6 @@ pub(super) fn store_skipped(asked: &Asked) -> Option<&'static str> {
         View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => Some("light is not looked at"),
     };
     octree_skipped(asked).or(unread)
-}
-
-/// The store is read for its opacity alone.
-pub fn only_opacity(asked: &Asked) -> bool {
-    match asked.settings.look.view {
-        View::Slice => asked.settings.look.slice.value == SliceValue::Occupancy,
-        View::Surfaces => !ConesAsked::new(asked).any_radiance(),
-        View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => false,
-    }
 }
 
 fn dark(asked: &Asked) -> Option<&'static str> {

@@ -10,6 +10,7 @@
 //! Static scenes, and what nobody looks at, cost nothing.
 
 mod asked;
+mod effects;
 mod held;
 mod key;
 mod keys;
@@ -17,6 +18,7 @@ mod light;
 mod part;
 mod pass;
 mod rows;
+mod rules;
 mod surfaces;
 mod views;
 mod voxels;
@@ -28,14 +30,13 @@ use serde::Serialize;
 use crate::digest::Digest;
 
 pub use asked::{Asked, Contents, SceneFacts, WantedFor};
+pub use effects::{ConesAsked, only_opacity};
 pub use held::Held;
 pub use key::{Key, KeyBuilder};
 pub use keys::Keys;
-pub use light::only_opacity;
 pub use part::Part;
 pub use pass::Pass;
 pub use rows::{Row, State};
-pub use surfaces::ConesAsked;
 pub use views::{light_shown, shows_light, tells_mean_light};
 pub use voxels::layout_of;
 

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::effects::only_opacity;
 use super::keys::{Keys, Wanted};
-use super::light::{only_opacity, store_skipped};
+use super::light::store_skipped;
 use super::voxels::{followed, from_octree, lookup, octree_skipped, unless};
 use super::{Asked, Key, KeyBuilder, Part, Pass, WantedFor};
 use crate::settings::{AlphaRule, ColorBy, Look, Slice, SliceValue, SurfaceView, ToneCurve, View};

@@ -1,7 +1,7 @@
 //! Rules of the parts that move voxels and build the octree.
 
+use super::effects::{ConesAsked, marches_shadows};
 use super::keys::{Keys, Wanted};
-use super::surfaces::{ConesAsked, marches_shadows};
 use super::{Asked, Key, KeyBuilder, Part, Pass, WantedFor};
 use crate::data::octree::PointerLayout;
 use crate::settings::{ColorBy, Filter, Lookup, View};
