@@ -3,7 +3,7 @@
 use clap::Args;
 use octolume::settings::{ConeTracing, Lookup, Sampling};
 
-use super::options::set;
+use super::values::set;
 use super::values::{self, IndirectSize, OcclusionDistance, Switch};
 
 #[derive(Debug, Args)]

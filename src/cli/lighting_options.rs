@@ -5,8 +5,8 @@ use octolume::settings::LightChange;
 use octolume::settings::lighting::{AddedLight, Lighting, Opacity, Shadows, SunShines};
 
 use super::light_values::{self, SunChoice};
-use super::options::set;
 use super::values;
+use super::values::set;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Light")]

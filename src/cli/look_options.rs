@@ -3,7 +3,7 @@
 use clap::Args;
 use octolume::settings::{AlphaRule, ColorBy, Look, Lookup, Sampling, SliceValue, ToneCurve, View};
 
-use super::options::set;
+use super::values::set;
 use super::values::{self, Exposure, SliceChoice, SliceScale, ViewChoice};
 
 #[derive(Debug, Args)]

@@ -13,6 +13,7 @@ use octolume::settings::{Discretization, Filter, NodeNames, Settings, VoxelAncho
 
 use super::cone_options::ConeOptions;
 use super::lighting_options::LightingOptions;
+use super::values::set;
 use super::{Usage, values};
 
 #[derive(Debug, Args)]
@@ -159,12 +160,5 @@ impl Common {
 impl Moment {
     pub fn apply(&self, settings: &mut Settings) {
         set(&mut settings.motion.time_secs, self.time);
-    }
-}
-
-/// Takes a value that was given.
-pub fn set<T>(place: &mut T, given: Option<T>) {
-    if let Some(value) = given {
-        *place = value;
     }
 }

@@ -88,6 +88,13 @@ impl FromStr for Frames {
     }
 }
 
+/// Takes a value that was given.
+pub fn set<T>(place: &mut T, given: Option<T>) {
+    if let Some(value) = given {
+        *place = value;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use octolume::settings::{ColorBy, Filter};

@@ -9,12 +9,9 @@ use wgpu::naga;
 
 use super::bindings::KernelBinding;
 use super::cost::Cost;
-use super::reflect::{overrides, parse, used_bindings, workgroup_size};
+use super::reflect::{ENTRY, overrides, parse, used_bindings, workgroup_size};
 use super::shaders::Source;
 use super::{Gpu, GpuError};
-
-pub(super) const WORKGROUP_SIZE: &str = "WORKGROUP_SIZE";
-pub(super) const ENTRY: &str = "main";
 
 /// A compiled kernel, or the reason it is none: [`super::Job`] reports that when it should run it.
 #[derive(Debug)]

@@ -5,8 +5,10 @@ use wgpu::naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 use super::GpuError;
 use super::bindings::{BindingKind, KernelBinding};
-use super::kernel::{ENTRY, WORKGROUP_SIZE};
 use super::shaders::Source;
+
+pub(super) const ENTRY: &str = "main";
+const WORKGROUP_SIZE: &str = "WORKGROUP_SIZE";
 
 /// Parses and validates WGSL; errors name file and line.
 pub fn parse(source: &Source) -> Result<(naga::Module, ModuleInfo), GpuError> {
