@@ -18,6 +18,7 @@ pub mod data;
 pub mod digest;
 pub mod disk_cache;
 pub mod engine;
+pub mod experiment;
 pub mod export;
 pub mod gpu;
 pub mod lights;

@@ -1,41 +1,45 @@
 //! What light costs, a variant at a time: pointers, shadows, injection, averages, cones, and samples a
 //! second by every way to find nodes.
 
+use std::cell::{RefCell, RefMut};
 use std::collections::BTreeMap;
 
-use anyhow::Context;
-use octolume::gpu::KernelTiming;
-use octolume::settings::lighting::{Opacity, Shadows};
-use octolume::settings::{ColorBy, Lookup, Settings, View};
 use serde::Serialize;
 
-use super::cost::{Cost, HEADS, Samples};
+use super::KernelReport;
 use super::sampling::{self, SamplingCost};
-use crate::cli::output;
-use crate::cli::session::{NO_PICTURE, Session};
+use crate::experiment::board::Share;
+use crate::experiment::cost::Samples;
+use crate::experiment::frames::{Forget, Frames};
+use crate::experiment::lab::{Lab, NO_PICTURE};
+use crate::experiment::report::Table;
+use crate::experiment::{Cost, ExperimentError};
+use crate::settings::lighting::{Opacity, Shadows};
+use crate::settings::{ColorBy, Lookup, Settings, View};
 
 /// Runs of cones, which take seconds each without a fast GPU.
 const CONE_RUNS: u32 = 1;
 
-#[derive(Serialize)]
+#[derive(Clone, Default, Serialize)]
 pub struct LightReport {
-    passes: Vec<Cost>,
-    sampling: Vec<SamplingCost>,
-    memory: MemoryReport,
+    pub passes: Vec<Cost>,
+    pub sampling: Vec<SamplingCost>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub memory: Option<MemoryReport>,
 }
 
 /// Bytes of the octree on screen and of its light, and how many a node has.
-#[derive(Serialize)]
-struct MemoryReport {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MemoryReport {
     /// Stored nodes, leaves and dummies included.
-    nodes: u64,
-    octree_bytes: u64,
-    light_bytes: u64,
-    block_pointer_bytes: u64,
-    node_pointer_bytes: u64,
-    bytes_per_node: f64,
+    pub nodes: u64,
+    pub octree_bytes: u64,
+    pub light_bytes: u64,
+    pub block_pointer_bytes: u64,
+    pub node_pointer_bytes: u64,
+    pub bytes_per_node: f64,
     /// With pointers stored with every node, as in the paper.
-    bytes_per_node_with_node_pointers: f64,
+    pub bytes_per_node_with_node_pointers: f64,
 }
 
 /// A way to light the octree, and the kernels in which it differs.
@@ -88,56 +92,55 @@ fn follow(settings: &mut Settings, lookup: Lookup) {
     settings.look.slice.lookup = lookup;
 }
 
-/// `runs`: to warm up, and measured.
-pub fn measure(
-    session: &mut Session,
-    settings: &Settings,
-    runs: (u32, u32),
-    bytes_per_ms: f64,
-) -> anyhow::Result<LightReport> {
-    let mut lit = settings.clone();
+pub async fn measure(
+    lab: &mut Lab,
+    report: &RefCell<KernelReport>,
+    (share, bytes_per_ms): (Share, f64),
+) -> Result<(), ExperimentError> {
+    let light = || RefMut::map(report.borrow_mut(), |report| report.light.get_or_insert_default());
+    let mut lit = lab.settings.clone();
     lit.look.color = ColorBy::Radiance;
-    let mut passes = Vec::new();
-    for variant in &VARIANTS {
+    let [lighting, sampling] = share.split([2.0, 1.0]);
+    for (index, variant) in VARIANTS.iter().enumerate() {
         let mut settings = lit.clone();
         (variant.set)(&mut settings);
-        let runs = variant.runs.map_or(runs, |runs| (0, runs));
-        match measure_variant(session, &settings, variant, runs) {
-            Ok(samples) => passes.extend(
-                samples
+        match measure_variant(lab, &settings, (variant, lighting.part(index, VARIANTS.len()))).await {
+            Ok(samples) => {
+                let costs = samples
                     .into_iter()
-                    .filter_map(|(kernel, samples)| samples.cost(format!("{kernel}, {}", variant.name), bytes_per_ms)),
-            ),
-            Err(error) => output::message(&format!("{} is not measured: {error:#}", variant.name)),
+                    .filter_map(|(kernel, samples)| samples.cost(format!("{kernel}, {}", variant.name), bytes_per_ms));
+                light().passes.extend(costs);
+            }
+            Err(error) => lab.miss(variant.name, &error),
         }
     }
-    session.run(&lit, NO_PICTURE)?;
-    let sampling = sampling::measure(session, &lit)?;
-    let memory = memory(session)?;
-    Ok(LightReport { passes, sampling, memory })
+    lab.run(&lit, NO_PICTURE, sampling.part(0, 1)).await?;
+    sampling::measure(lab, &lit, sampling, |cost| light().sampling.push(cost)).await?;
+    light().memory = Some(memory(lab)?);
+    Ok(())
 }
 
-fn measure_variant(
-    session: &mut Session,
+async fn measure_variant(
+    lab: &mut Lab,
     settings: &Settings,
-    variant: &Variant,
-    (warmup, runs): (u32, u32),
-) -> anyhow::Result<BTreeMap<&'static str, Samples>> {
+    (variant, share): (&Variant, Share),
+) -> Result<BTreeMap<&'static str, Samples>, ExperimentError> {
     let mut samples: BTreeMap<&str, Samples> = BTreeMap::new();
-    for run in 0..warmup + runs {
-        session.engine.invalidate_light();
-        session.run(settings, NO_PICTURE)?;
-        let timings = session.kernel_times();
-        for &kernel in variant.kernels.iter().filter(|_| run >= warmup) {
-            let of_kernel = |timing: &&KernelTiming| timing.kernel == kernel;
-            samples.entry(kernel).or_default().add(timings.iter().filter(of_kernel));
+    let (warmup, runs) = variant.runs.map_or((lab.warmup, lab.runs), |runs| (0, runs));
+    let frames = Frames { what: variant.name, settings, size_px: NO_PICTURE, forget: Forget::Light, warmup, runs };
+    lab.measure(frames, share, |engine, _| {
+        for &kernel in variant.kernels {
+            let timings = engine.timings().iter().map(|timing| &timing.kernel);
+            samples.entry(kernel).or_default().add(timings.filter(|timing| timing.kernel == kernel));
         }
-    }
+    })
+    .await?;
     Ok(samples)
 }
 
-fn memory(session: &Session) -> anyhow::Result<MemoryReport> {
-    let report = session.engine.octree_report().context("there is no octree")?;
+fn memory(lab: &Lab) -> Result<MemoryReport, ExperimentError> {
+    let no_octree = || ExperimentError::NoVoxels(lab.prepared.scene.name.clone());
+    let report = lab.engine.octree_report().ok_or_else(no_octree)?;
     let nodes = report.levels.iter().map(|level| level.nodes).sum::<u64>();
     let [block_pointer_bytes, node_pointer_bytes] = report.pointer_bytes;
     let bytes_per_node = |pointers: u64| (report.bytes + report.light_bytes + pointers) as f64 / nodes as f64;
@@ -153,20 +156,9 @@ fn memory(session: &Session) -> anyhow::Result<MemoryReport> {
 }
 
 impl LightReport {
-    pub fn text(&self) -> String {
-        let passes = output::table(&HEADS, self.passes.iter().map(Cost::row));
-        let sampling = output::table(&sampling::HEADS, self.sampling.iter().map(SamplingCost::row));
-        let m = &self.memory;
-        format!(
-            "{passes}\n\n{sampling}\n\n{} nodes: {} bytes of octree, {} of light, {} of pointers a block ({} a node); \
-             {:.1} bytes a node ({:.1} with pointers a node)",
-            m.nodes,
-            m.octree_bytes,
-            m.light_bytes,
-            m.block_pointer_bytes,
-            m.node_pointer_bytes,
-            m.bytes_per_node,
-            m.bytes_per_node_with_node_pointers,
-        )
+    pub(in crate::experiment) fn tables(&self) -> [Table; 2] {
+        let passes = Table::new("light", &Cost::HEADS, self.passes.iter().map(Cost::cells));
+        let sampling = self.sampling.iter().map(SamplingCost::cells);
+        [passes, Table::new("sampling", &SamplingCost::HEADS, sampling)]
     }
 }
