@@ -43,6 +43,13 @@ pub(super) struct Board {
     pub pictures: RefCell<Vec<NamedPicture>>,
 }
 
+impl Board {
+    /// A frame that begins again, and a total that grows, are no step back.
+    pub fn reach(&self, share: Share, fraction: f32) {
+        self.fraction.set(self.fraction.get().max(share.at(fraction.clamp(0.0, 1.0))));
+    }
+}
+
 /// A part of the whole that a step of a procedure stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Share {

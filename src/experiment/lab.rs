@@ -42,7 +42,7 @@ impl Lab {
 
     /// Says what is done, from the beginning of its share on.
     pub fn say(&self, share: Share, doing: impl Into<String>) {
-        self.board.fraction.set(share.at(0.0));
+        self.board.reach(share, 0.0);
         self.board.doing.replace(doing.into());
     }
 
@@ -71,7 +71,7 @@ impl Lab {
         let left_out = self.engine.left_out();
         self.warn(&left_out);
         while let EngineState::Working { fraction } = self.engine.advance(self.board.budget.get())? {
-            self.board.fraction.set(share.at(fraction));
+            self.board.reach(share, fraction);
             pause().await;
         }
         Ok(())
@@ -116,7 +116,7 @@ impl Lab {
                 Err(TryRecvError::Disconnected) => return Err(ExperimentError::Died(what.to_owned())),
                 Err(TryRecvError::Empty) => pause().await,
             }
-            self.board.fraction.set(share.at(waiting.progress.fraction()));
+            self.board.reach(share, waiting.progress.fraction());
         }
     }
 }

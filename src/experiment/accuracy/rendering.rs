@@ -125,11 +125,12 @@ async fn compare(
     let [tracing, cones, occlusion, racing] = case.share.split([4.0, 2.0, 1.0, 2.0]);
     let truth = trace(lab, &settings, (tracing, case.options)).await?;
     for ((surface, terms), share) in FRAMES.into_iter().zip([cones, occlusion]) {
+        let [measuring, judging] = share.split([3.0, 1.0]);
         settings.look.surface = surface;
-        let read = measure(lab, &settings, (case.options.size_px, terms, share)).await?;
+        let read = measure(lab, &settings, (case.options.size_px, terms, measuring)).await?;
         let stem = case.options.draws.then(|| picture_stem(lab, &settings, case.number));
         let (prepared, of_frame, truth) = (Arc::clone(&lab.prepared), settings.clone(), Arc::clone(&truth));
-        let judged = lab.work((share.part(1, 1), "comparing with paths"), move |_| {
+        let judged = lab.work((judging, "comparing with paths"), move |_| {
             read.iter().map(|term| term.judge((&prepared, &of_frame), &truth, stem.as_deref())).collect()
         });
         let judged: Result<Vec<_>, ExperimentError> = judged.await?;

@@ -95,9 +95,9 @@ async fn compare(
     let lights = lights(lab, settings, casting).await?;
     let first = rows.borrow().len();
     for (number, light) in lights.iter().enumerate() {
-        let share = measuring.part(number, lights.len());
-        lab.say(share, format!("{}: light without shadows", light.name));
-        lab.run(&light.settings, NO_PICTURE, share).await?;
+        let [opening, share] = measuring.part(number, lights.len()).split([1.0, 2.0 * METHODS.len() as f32]);
+        lab.say(opening, format!("{}: light without shadows", light.name));
+        lab.run(&light.settings, NO_PICTURE, opening).await?;
         let open = lab.engine.read_irradiance()?;
         for (index, method) in METHODS.into_iter().enumerate() {
             let row = compare_method(lab, (light, &open), (method, share.part(index, METHODS.len()))).await?;
@@ -126,11 +126,12 @@ async fn lights(lab: &mut Lab, settings: &Settings, share: Share) -> Result<Vec<
         return Err(ExperimentError::NoLight(prepared.scene.name.clone()));
     };
     // Leaves do not depend on the light.
-    lab.say(share, "building voxels");
-    lab.run(&settings, NO_PICTURE, share.part(0, 1)).await?;
+    let [building, casting] = share.split([1.0, 2.0]);
+    lab.say(building, "building voxels");
+    lab.run(&settings, NO_PICTURE, building).await?;
     let cells = lab.engine.read_voxels()?.cells;
     let cast =
-        lab.work((share, "casting rays to lights"), move |progress| cast(&prepared, shining, (&cells, progress)));
+        lab.work((casting, "casting rays to lights"), move |progress| cast(&prepared, shining, (&cells, progress)));
     let (lights, warnings) = cast.await??;
     lab.warn(&warnings);
     Ok(lights)

@@ -57,9 +57,10 @@ pub fn voxels(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>, 
 }
 
 async fn compare_filters(lab: &mut Lab, settings: &Settings, share: Share) -> Result<VoxelRow, ExperimentError> {
-    let [voxelizing, measuring] = share.split([1.0, 2.0]);
+    let [voxelizing, building, measuring] = share.split([2.0, 1.0, lab.runs as f32]);
     take_exact(lab, settings, voxelizing).await?;
-    lab.run(settings, NO_PICTURE, measuring.part(0, 1)).await?;
+    lab.say(building, "building by both filters");
+    lab.run(settings, NO_PICTURE, building).await?;
     let (mut nearest_ms, mut split_ms) = (Vec::new(), Vec::new());
     let frames = Frames {
         what: "building by both filters",

@@ -100,7 +100,7 @@ pub async fn measure(
     let light = || RefMut::map(report.borrow_mut(), |report| report.light.get_or_insert_default());
     let mut lit = lab.settings.clone();
     lit.look.color = ColorBy::Radiance;
-    let [lighting, sampling] = share.split([2.0, 1.0]);
+    let [lighting, relighting, sampling] = share.split([20.0, 1.0, 10.0]);
     for (index, variant) in VARIANTS.iter().enumerate() {
         let mut settings = lit.clone();
         (variant.set)(&mut settings);
@@ -114,7 +114,8 @@ pub async fn measure(
             Err(error) => lab.miss(variant.name, &error),
         }
     }
-    lab.run(&lit, NO_PICTURE, sampling.part(0, 1)).await?;
+    lab.say(relighting, "lighting as set");
+    lab.run(&lit, NO_PICTURE, relighting).await?;
     sampling::measure(lab, &lit, sampling, |cost| light().sampling.push(cost)).await?;
     light().memory = Some(memory(lab)?);
     Ok(())

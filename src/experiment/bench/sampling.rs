@@ -76,10 +76,11 @@ async fn measure_way(
     let mut following = settings.clone();
     following.look.view = View::Slice;
     following.look.slice.lookup = sampler.lookup;
-    lab.run(&following, NO_PICTURE, share).await.ok()?;
+    let [linking, sampling] = share.split([1.0, 3.0]);
+    lab.run(&following, NO_PICTURE, linking).await.ok()?;
     let mut samples = Samples::default();
     for run in 0..=RUNS {
-        lab.say(share.part(run as usize, RUNS as usize + 1), format!("{:?} samples", sampler.sampling));
+        lab.say(sampling.part(run as usize, RUNS as usize + 1), format!("{:?} samples", sampler.sampling));
         let Ok((job, _)) = lab.engine.sampling(sampler, [0.0, 1.0, 0.0], points) else { break };
         let Ok(timings) = lab.run_job(job).await else { break };
         if run > 0 {
