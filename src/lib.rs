@@ -26,5 +26,6 @@ pub mod plan;
 pub mod accuracy;
 pub mod engine;
 pub mod export;
+pub mod experiment;
 #[cfg(feature = "gui")]
 pub mod app;

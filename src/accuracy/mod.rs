@@ -1,7 +1,5 @@
-//! What accuracy costs: which poses and lights are compared, and a row of the resulting table.
-//!
-//! *Holes* are cells of the exact posed voxelization that no moved voxel reached; *spill* is cells
-//! that only moved voxels reached.
+//! What is true: rays through the posed triangles and a path tracer, and how far shadows and pictures are from them;
+//! and which poses and lights are compared.
 
 mod cut_outs;
 pub mod path_tracer;
@@ -11,9 +9,6 @@ pub mod ray_tree;
 pub mod shadows;
 pub mod triangle;
 
-use serde::Serialize;
-
-use crate::engine::FilterReport;
 use crate::lights::{KnownLight, LightSource};
 use crate::prepare::{MotionError, Prepared};
 use crate::settings::MotionSettings;
@@ -49,34 +44,8 @@ pub fn turned(motion: &MotionSettings, turns_degrees: &[f64]) -> Vec<MotionSetti
     turns_degrees.iter().map(turned).collect()
 }
 
-/// One pose on one grid, both filters.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
-    pub scene: String,
-    pub clip: Option<String>,
-    pub time_secs: f64,
-    pub turn_degrees: [f64; 3],
-    pub grid: u32,
-    pub span: f64,
-    /// Cells of the exact posed voxelization.
-    pub exact: u64,
-    pub nearest: FilterReport,
-    pub split: FilterReport,
-}
-
-impl Row {
-    /// Of the exact cells; `None` where holes were not counted.
-    pub fn holes_percent(&self, filter: &FilterReport) -> Option<f64> {
-        Some(percent(filter.holes?, self.exact))
-    }
-}
-
-/// Of the cells that moved voxels reached; `None` where spill was not counted.
-pub fn spill_percent(filter: &FilterReport) -> Option<f64> {
-    Some(percent(filter.spill?, filter.leaves))
-}
-
-fn percent(part: u64, whole: u64) -> f64 {
+/// Of nothing it is nothing.
+pub fn percent(part: u64, whole: u64) -> f64 {
     if whole == 0 { 0.0 } else { 100.0 * part as f64 / whole as f64 }
 }
 

@@ -13,7 +13,6 @@ use serde::Serialize;
 use super::posed_triangles::{PosedTriangles, SurfacePoint};
 use crate::color::luminance;
 use crate::data::grid::{Grid, morton_key};
-use crate::data::world_voxels::WorldVoxels;
 use crate::lights::PosedLight;
 use crate::scene::LightKind;
 use crate::stages::light::illuminate_ref::{self, Light, Source};
@@ -55,16 +54,17 @@ pub struct LeafPlaces {
 }
 
 impl LeafPlaces {
-    pub fn new(voxels: &WorldVoxels, grid: &Grid) -> Self {
-        let keys = voxels.cells.iter().map(|cell| morton_key(cell.map(|c| c as u32))).collect();
+    /// `cells`: of the leaves, sorted by Morton key.
+    pub fn new(cells: &[[i32; 3]], grid: &Grid) -> Self {
+        let keys = cells.iter().map(|cell| morton_key(cell.map(|c| c as u32))).collect();
         Self { keys, cells: f64::from(grid.cells()) }
     }
 
     /// `None` in a cell that is empty, or not in the grid.
-    fn leaf(&self, position: DVec3) -> Option<usize> {
+    fn leaf(&self, position: DVec3) -> Option<u32> {
         let is_inside = position.min_element() >= 0.0 && position.max_element() < self.cells;
         let key = || morton_key(position.to_array().map(|c| c as u32));
-        is_inside.then(|| self.keys.binary_search(&key()).ok()).flatten()
+        is_inside.then(|| self.keys.binary_search(&key()).ok().map(|leaf| leaf as u32)).flatten()
     }
 }
 
@@ -74,7 +74,7 @@ pub struct TrueShadows {
 }
 
 struct TruePoint {
-    leaf: Option<usize>,
+    leaf: Option<u32>,
     is_lit: bool,
 }
 
@@ -98,8 +98,9 @@ impl TrueShadows {
     /// Both irradiances leaf by leaf: with shadows, and with none.
     pub fn compare(&self, shadowed: &[[f32; 3]], open: &[[f32; 3]]) -> ShadowError {
         let mut sums = Sums::default();
+        let at = |leaf: Option<u32>| leaf.and_then(|leaf| shadowed.get(leaf as usize).zip(open.get(leaf as usize)));
         for point in &self.points {
-            let Some((shadowed, open)) = point.leaf.and_then(|leaf| shadowed.get(leaf).zip(open.get(leaf))) else {
+            let Some((shadowed, open)) = at(point.leaf) else {
                 sums.without_leaf += 1;
                 continue;
             };

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::App;
 use super::inspector::Pin;
+use super::measuring;
 use super::playback;
 use super::reference::Order;
 use super::screenshots::Format;
@@ -26,6 +27,8 @@ pub enum Command {
     TraceCones(ConeTracing),
     /// What is done with the path tracer.
     Reference(Order),
+    /// What is done with experiments.
+    Measure(measuring::Order),
     /// Another node of the octree is looked at.
     Pin(Pin),
     /// Another clip or turn, or a scrub of the timeline.
@@ -70,6 +73,7 @@ impl App {
             Command::Discretize(discretization) => self.settings.discretization = discretization,
             Command::Look(look) => self.settings.look = look,
             Command::Reference(order) => self.desk.reference.apply(order),
+            Command::Measure(order) => self.measure(ctx, order),
             Command::Pin(pin) => self.desk.inspector.apply(pin),
             Command::Light(lighting) => self.settings.lighting = lighting,
             Command::TraceCones(cones) => self.settings.cone_tracing = cones,

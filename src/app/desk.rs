@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::background::{Background, Outcome};
 use super::commands::Command;
 use super::inspector::Inspector;
+use super::measuring::Measuring;
 use super::panels::top_bar::Unfolded;
 use super::panels::tree::TreeState;
 use super::reference::Reference;
@@ -21,6 +22,7 @@ pub struct Desk {
     pub light: Option<LightSource>,
     pub inspector: Inspector,
     pub reference: Reference,
+    pub measuring: Measuring,
     dialog: Option<Background<Option<PathBuf>>>,
 }
 
@@ -34,12 +36,18 @@ impl Default for Desk {
             light: None,
             inspector: Inspector::default(),
             reference: Reference::default(),
+            measuring: Measuring::default(),
             dialog: None,
         }
     }
 }
 
 impl Desk {
+    /// Something is traced, compared or measured.
+    pub fn is_busy(&self) -> bool {
+        self.reference.is_busy() || self.measuring.is_busy()
+    }
+
     /// Opens the desktop's dialog, on a thread of its own because some never answer. One at a time.
     pub fn choose_file(&mut self, ctx: &egui::Context) {
         if self.dialog.is_none() {

@@ -210,6 +210,9 @@ impl App {
             };
             panels::reference::ui(ui, &panel)
         }));
+        commands.extend(section(ui, "Measure", false, |ui| {
+            panels::measure::ui(ui, &self.desk.measuring, self.scene.is_some())
+        }));
         commands.extend(section(ui, "Octree", true, |ui| {
             panels::octree::ui(ui, stage.octree.as_ref(), self.settings.look.level);
             Vec::new()

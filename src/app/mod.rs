@@ -21,6 +21,7 @@ mod latency;
 mod layout;
 mod legend;
 mod loader;
+mod measuring;
 mod mentions;
 mod node_overlay;
 mod opening;
@@ -236,7 +237,7 @@ impl App {
     /// Nothing is being opened, voxelized, built, drawn, traced or compared.
     pub fn is_settled(&self) -> bool {
         let loading = self.loader.progress().is_some() || self.exact.is_behind();
-        !loading && self.stage.working().is_none() && !self.screenshots.is_busy() && !self.desk.reference.is_busy()
+        !loading && self.stage.working().is_none() && !self.screenshots.is_busy() && !self.desk.is_busy()
     }
 
     fn prepared(&self) -> Option<&Arc<Prepared>> {

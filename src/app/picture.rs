@@ -33,6 +33,7 @@ impl App {
             self.journal.note(Severity::Warning, sentence);
         }
         self.follow_reference(ui.ctx(), &settings, full_px);
+        self.follow_measuring(ui.ctx(), &settings);
         self.save_screenshot(ui.ctx(), &settings, full_px);
         let response = self.viewport.ui(ui, &self.render, self.stage.picture());
         let mut commands = viewport::commands(ui, &response, &camera);

@@ -18,20 +18,13 @@ pub enum Format {
     Light,
 }
 
-impl Format {
-    fn extension(self) -> &'static str {
-        match self {
-            Self::Picture => "png",
-            Self::Light => "exr",
-        }
-    }
-}
-
 /// What goes into a file.
 pub enum Content {
     Picture(RgbaImage, Box<Settings>),
     /// Four channels a pixel, rows from the top; how large it is.
     Light(Vec<[f32; 4]>, [u32; 2]),
+    /// What was measured, as JSON.
+    Report(String),
 }
 
 pub struct Screenshots {
@@ -110,19 +103,20 @@ fn reserve_file(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, 
 }
 
 fn write(folder: &Path, scene: &str, content: &Content) -> Result<PathBuf, String> {
-    let format = match content {
-        Content::Picture(..) => Format::Picture,
-        Content::Light(..) => Format::Light,
+    let extension = match content {
+        Content::Picture(..) => "png",
+        Content::Light(..) => "exr",
+        Content::Report(..) => "json",
     };
-    let file = reserve_file(folder, scene, format.extension())?;
+    let file = reserve_file(folder, scene, extension)?;
     let written = match content {
-        Content::Picture(picture, settings) => export::write_png(&file, picture, settings),
-        Content::Light(light, size_px) => export::write_exr(&file, *size_px, light),
+        Content::Picture(picture, settings) => export::write_png(&file, picture, settings).map_err(|e| e.to_string()),
+        Content::Light(light, size_px) => export::write_exr(&file, *size_px, light).map_err(|e| e.to_string()),
+        Content::Report(json) => std::fs::write(&file, json).map_err(|error| format!("{}: {error}", file.display())),
     };
-    written.map_err(|error| {
+    written.inspect_err(|_| {
         // The reserved file is empty; a failure to remove it changes nothing about the error to tell.
         let _ = std::fs::remove_file(&file);
-        error.to_string()
     })?;
     Ok(file)
 }

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 use indicatif::{ProgressBar, ProgressStyle};
+use octolume::experiment::Table;
 use octolume::progress::Progress;
 use serde::Serialize;
 
@@ -65,16 +66,30 @@ pub fn table(heads: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> Str
     lines.collect::<Vec<_>>().join("\n")
 }
 
+/// Rows of an experiment, the same way.
+pub fn rows(table: &Table) -> String {
+    self::table(&table.heads, table.rows.iter().cloned())
+}
+
+/// A bar of 100 parts, where there is a terminal for it.
+pub fn bar(what: &'static str) -> ProgressBar {
+    if !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(100).with_message(what);
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} %") {
+        bar.set_style(style);
+    }
+    bar
+}
+
 /// Runs long work with a bar on the terminal, if there is one.
 pub fn with_progress<T>(what: &'static str, work: impl FnOnce(&Progress) -> T) -> T {
     let progress = Arc::new(Progress::default());
     if !io::stderr().is_terminal() {
         return work(&progress);
     }
-    let bar = ProgressBar::new(100).with_message(what);
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} %") {
-        bar.set_style(style);
-    }
+    let bar = bar(what);
     std::thread::scope(|scope| {
         let (finished, watched) = std::sync::mpsc::channel::<()>();
         let watcher = Arc::clone(&progress);

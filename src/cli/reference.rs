@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use clap::Args;
-use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Scene, Term};
+use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Term};
 use octolume::accuracy::picture_error::Shown;
 use octolume::disk_cache::DiskCache;
+use octolume::experiment::{Traced, traced};
 use octolume::export;
 use octolume::prepare::Prepared;
 use octolume::settings::{Settings, SurfaceView, View};
@@ -55,32 +56,13 @@ impl ReferenceOptions {
     ) -> anyhow::Result<()> {
         let pixel = if self.smooth_edges { PixelSampling::Area } else { PixelSampling::Centre };
         let options = Options { seed: self.seed.unwrap_or(0), pixel, ..Options::new(size_px) };
-        let film = traced((prepared, disk), settings, options, self.samples.unwrap_or(SAMPLES))?;
+        let paths = (options, self.samples.unwrap_or(SAMPLES));
+        let Traced { film, warnings } =
+            output::with_progress("tracing paths", |progress| traced((prepared, disk), settings, paths, progress))?;
+        output::warnings(&warnings);
         output::message(&summary(&film, settings));
         write(&film, settings, file)
     }
-}
-
-/// A picture with as many samples a pixel, which go on from what `disk` holds and are kept there.
-pub fn traced(
-    (prepared, disk): (&Prepared, Option<&DiskCache>),
-    settings: &Settings,
-    options: Options,
-    samples: u32,
-) -> anyhow::Result<Film> {
-    let scene = Scene::new(prepared, settings, options)?;
-    output::warnings(scene.warnings());
-    let kept = disk.map(|disk| (disk, scene.key()));
-    let stored = kept.as_ref().and_then(|(disk, key)| disk.load_film(key, options.size_px, samples));
-    let mut film = stored.unwrap_or_else(|| scene.new_film());
-    output::with_progress("tracing paths", |progress| scene.trace(&mut film, samples, progress))?;
-    if let Some((disk, key)) = kept
-        && let Err(error) = disk.store_film(&key, &film)
-    {
-        let folder = disk.folder().display();
-        output::message(&format!("warning: the traced picture cannot be kept in {folder}: {error}"));
-    }
-    Ok(film)
 }
 
 fn summary(film: &Film, settings: &Settings) -> String {

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use octolume::disk_cache::DiskCache;
 use octolume::engine::Engine;
-use octolume::gpu::{Gpu, KernelTiming};
+use octolume::experiment::Subject;
+use octolume::gpu::Gpu;
 use octolume::prepare::{Prepared, Stores, prepare_with};
 use octolume::progress::Progress;
 use octolume::scene::load::{self, OpenOptions};
@@ -81,9 +82,9 @@ impl Session {
         Ok(())
     }
 
-    /// What the kernels behind the last picture took, each from the frame that ran it.
-    pub fn kernel_times(&self) -> Vec<KernelTiming> {
-        self.engine.timings().iter().map(|timing| timing.kernel.clone()).collect()
+    /// The scene for an experiment, which has an engine of its own on the same GPU.
+    pub fn subject(&self, settings: &Settings, runs: u32) -> Subject {
+        Subject { prepared: Arc::clone(&self.prepared), settings: settings.clone(), runs }
     }
 }
 

@@ -70,8 +70,8 @@ fn cones_are_compared_term_by_term() {
     let folder = scenes.path("compared");
     let start = [Path::new("accuracy"), &scene, Path::new("-o"), &folder].map(|part| part.as_os_str().to_owned());
     let options = ["--rendering", "--json", "--size", "32x24", "--samples", "8", "--runs", "1", "--sky", "1,1,1"];
-    let rows = json(start.into_iter().chain(options.map(Into::into)));
-    let rows = rows.as_array().expect("rows");
+    let found = json(start.into_iter().chain(options.map(Into::into)));
+    let rows = found["rows"].as_array().expect("rows");
     let terms: Vec<&str> = rows.iter().filter_map(|row| row["term"].as_str()).collect();
     assert_eq!(terms, ["direct", "diffuse", "specular", "final", "ao"]);
     for row in rows {

@@ -135,7 +135,7 @@ fn bench_measures_every_kernel_beside_a_copy() {
         assert!(names.contains(&name), "{name} is not in {names:?}");
     }
     assert_eq!((&bench["runs"], &bench["scene"]), (&json!(3), &json!("box")));
-    for text in ["adapter", "driver", "date", "octolume"] {
+    for text in ["adapter", "driver", "date", "octolume", "experiment"] {
         assert!(bench[text].as_str().is_some_and(|text| !text.is_empty()), "{text}");
     }
 }
@@ -146,8 +146,9 @@ fn accuracy_compares_both_filters_in_every_pose() {
     let folder = scenes.path("accuracy");
     let folder = folder.to_str().expect("UTF-8");
     let scene = scenes.turning_box();
-    let rows = report("accuracy", scene.as_os_str(), &["--times", "0,0.7", "--grids", "64,128", "-o", folder]);
-    let rows = rows.as_array().expect("a list");
+    let found = report("accuracy", scene.as_os_str(), &["--times", "0,0.7", "--grids", "64,128", "-o", folder]);
+    assert_eq!(fields(&found), ["adapter", "date", "driver", "experiment", "octolume", "rows", "settings"]);
+    let rows = found["rows"].as_array().expect("a list");
     assert_eq!(rows.len(), 4);
     for row in rows {
         assert_eq!((&row["scene"], &row["clip"]), (&json!("box"), &json!("Turn")));
@@ -160,6 +161,8 @@ fn accuracy_compares_both_filters_in_every_pose() {
         assert!(row["split"]["holes"].as_u64() <= row["nearest"]["holes"].as_u64(), "{row}");
     }
     assert_eq!((&rows[0]["grid"], &rows[3]["grid"]), (&json!(64), &json!(128)));
+    let kept = fs::read_to_string(scenes.path("accuracy").join("accuracy.json")).expect("JSON");
+    assert_eq!(serde_json::from_str::<Value>(&kept).expect("JSON"), found, "what is printed is kept");
     let files = ["accuracy.csv", "accuracy.md", "box-64-0-nearest.png", "box-128-1-split.png"];
     for file in files {
         assert!(scenes.path("accuracy").join(file).is_file(), "{file}");
@@ -174,8 +177,9 @@ fn accuracy_compares_the_shadows_of_every_light() {
     let scene = scenes.turning_box();
     let bulb = "point:at=1,5,3:name=bulb";
     let options = ["--lighting", "--runs", "1", "--sun", "500", "--add-light", bulb, "-o", folder];
-    let rows = report("accuracy", scene.as_os_str(), &options);
-    let rows = rows.as_array().expect("a list");
+    let found = report("accuracy", scene.as_os_str(), &options);
+    assert_eq!(found["experiment"], "shadows");
+    let rows = found["rows"].as_array().expect("a list");
     let names: Vec<[&Value; 3]> = rows.iter().map(|row| [&row["light"], &row["shadows"], &row["map_px"]]).collect();
     let methods = [
         ("map", json!(1024)),

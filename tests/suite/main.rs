@@ -33,6 +33,7 @@ mod disk_cache_key;
 mod document;
 mod dummies;
 mod emission;
+mod experiments;
 mod extensions;
 mod furnace;
 mod gpu;

@@ -3,6 +3,7 @@
 mod controls;
 mod files;
 mod lights;
+mod measure;
 mod node;
 mod opening;
 mod playing;

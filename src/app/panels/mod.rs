@@ -9,6 +9,7 @@ pub mod light;
 mod light_editor;
 mod light_method;
 pub mod log;
+pub mod measure;
 pub mod memory;
 pub mod node;
 mod node_facts;

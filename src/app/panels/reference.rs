@@ -11,6 +11,7 @@ use crate::app::reference::{Comparison, MeasuredPart, Order, PARTS, Reference, T
 use crate::app::scale_ticks::short;
 use crate::app::theme;
 use crate::engine::PassTiming;
+use crate::experiment::SurfaceWork;
 use crate::plan::Part;
 use crate::settings::SurfaceView;
 
@@ -128,17 +129,12 @@ fn name(part: SurfaceView) -> &'static str {
     }
 }
 
-/// What cones trace, and what else the picture is made of.
-const CONES: [Part; 3] = [Part::DiffuseLight, Part::GlossyTiles, Part::SpecularLight];
-const OTHERS: [Part; 5] = [Part::SurfaceImage, Part::DirectLight, Part::ComposedLight, Part::Exposure, Part::Picture];
-
 fn times_ui(ui: &mut Ui, timings: &[PassTiming], traced: &Traced) {
-    let ms = |parts: &[Part]| -> f64 {
-        let is_of = |timing: &&PassTiming| timing.pass.parts().iter().any(|part| parts.contains(part));
-        timings.iter().filter(is_of).map(|timing| timing.kernel.ms).sum()
-    };
-    let (of_cones, of_others) = (ms(&CONES), ms(&OTHERS));
-    let (cones, picture) = (milliseconds(of_cones), milliseconds(of_cones + of_others));
+    let is_shown = |timing: &&PassTiming| timing.pass.parts() == [Part::Picture];
+    let of_view: f64 = timings.iter().filter(is_shown).map(|timing| timing.kernel.ms).sum();
+    let [of_cones, of_surfaces] =
+        [&SurfaceWork::CONES[..], &SurfaceWork::ALL[..]].map(|works| SurfaceWork::sum_ms(works, timings));
+    let (cones, picture) = (milliseconds(of_cones), milliseconds(of_surfaces + of_view));
     let text = format!("Cones {cones} ms, all of the picture {picture} ms; paths {} s", short(traced.secs));
     ui.label(RichText::new(text).color(theme::WEAK)).on_hover_text(
         "Time on the GPU of the picture that is shown, octree and its light not counted; paths on the CPU.",

@@ -2,7 +2,7 @@
 
 use super::super::{Engine, EngineError};
 use super::missing;
-use crate::gpu::{Job, KernelTiming, Recorder};
+use crate::gpu::{GpuBuffer, Job, KernelTiming, Recorder};
 use crate::plan::Part;
 use crate::stages::sample::Sampler;
 use crate::stages::sample::sample_points::{self, PointParams};
@@ -17,6 +17,18 @@ impl Engine {
         direction: [f32; 3],
         points: &[[f32; 4]],
     ) -> Result<(Vec<[f32; 4]>, Vec<KernelTiming>), EngineError> {
+        let (job, buffer) = self.sampling(sampler, direction, points)?;
+        let timings = job.run_to_end(&self.gpu)?;
+        Ok((self.gpu.read(&buffer, 0..buffer.bytes())?, timings))
+    }
+
+    /// The same for who does not wait: the job that puts the samples into this buffer.
+    pub fn sampling(
+        &self,
+        sampler: &Sampler,
+        direction: [f32; 3],
+        points: &[[f32; 4]],
+    ) -> Result<(Job, GpuBuffer), EngineError> {
         let shown = self.shown.as_ref().ok_or_else(|| missing("light"))?;
         let making = self.making(shown, Part::Light).ok_or_else(|| missing("light"))?;
         let octree = self.parts.sampled(&making, sampler.lookup)?;
@@ -24,7 +36,6 @@ impl Engine {
         let params = PointParams::new(direction);
         let mut frame = Recorder::default();
         sample_points::record(&self.gpu, &mut frame, &octree, (sampler, &params), &buffer, points.len() as u64);
-        let timings = Job::new(frame).run_to_end(&self.gpu)?;
-        Ok((self.gpu.read(&buffer, 0..buffer.bytes())?, timings))
+        Ok((Job::new(frame), buffer))
     }
 }

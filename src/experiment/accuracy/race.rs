@@ -1,19 +1,20 @@
 //! Paths against cones: how right a path-traced picture is in the time that cones take, and from how many
 //! samples on it is as right as theirs.
 
-use anyhow::Context;
-use octolume::accuracy::path_tracer::{Film, Options, Scene};
-use octolume::accuracy::picture_error::{self, PictureError, Shown};
-use octolume::progress::Progress;
-use octolume::settings::Settings;
 use serde::Serialize;
 
-use crate::cli::session::Session;
+use super::rendering::shown;
+use crate::accuracy::path_tracer::{Film, Options, Scene};
+use crate::accuracy::picture_error::{self, PictureError, Shown};
+use crate::experiment::{ExperimentError, TraceError};
+use crate::prepare::Prepared;
+use crate::progress::Progress;
+use crate::settings::Settings;
 
 /// Another picture of the path tracer than the one that is the truth.
 const OTHER_SEED: u64 = 0x0c70_1ae0;
 
-#[derive(Clone, Copy, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Race {
     /// Of 1, 2, 4 … samples a pixel, the last that fit in the time of cones, or the first.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -24,7 +25,7 @@ pub struct Race {
 }
 
 /// A picture of a few paths beside the truth.
-#[derive(Clone, Copy, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct PathsError {
     samples: u32,
     secs: f64,
@@ -36,15 +37,15 @@ impl Race {
     /// Paths of the shown part of light, made with `options` but for the seed, against cones that took some
     /// seconds and have an error.
     pub fn run(
-        session: &Session,
-        settings: &Settings,
+        (prepared, settings): (&Prepared, &Settings),
         (truth, options): (&Film, Options),
         (cones_secs, cones): (f64, PictureError),
-    ) -> anyhow::Result<Self> {
+        progress: &Progress,
+    ) -> Result<Self, ExperimentError> {
         let options = Options { seed: options.seed ^ OTHER_SEED, ..options };
-        let scene = Scene::new(&session.prepared, settings, options)?;
+        let scene = Scene::new(prepared, settings, options).map_err(TraceError::from)?;
         let part = settings.look.surface;
-        let light = |film: &Film| film.shown(part, &settings.lighting).context("paths show every term");
+        let light = |film: &Film| shown(film, part, (prepared, settings));
         let truth_light = light(truth)?;
         let shown = Shown::new(&settings.look, part, &truth_light);
         let mut film = scene.new_film();
@@ -52,7 +53,7 @@ impl Race {
         // A truth that is hardly better than what is judged by it would say nothing.
         while film.samples() < truth.samples() / 4 {
             let samples = (2 * film.samples()).max(1);
-            scene.trace(&mut film, samples, &Progress::default())?;
+            scene.trace(&mut film, samples, progress).map_err(TraceError::from)?;
             let error = picture_error::compare(&light(&film)?, &truth_light, film.size_px(), &shown)?;
             let found = PathsError { samples, secs: film.secs(), error };
             if race.equal_time.is_none() || found.secs <= cones_secs {

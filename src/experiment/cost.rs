@@ -1,11 +1,11 @@
 //! What a kernel took, beside what its memory traffic alone would take.
 
-use octolume::gpu::KernelTiming;
 use serde::Serialize;
 
-use octolume::spread::Spread;
+use crate::gpu::KernelTiming;
+use crate::spread::Spread;
 
-#[derive(Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cost {
     pub kernel: String,
     #[serde(flatten)]
@@ -21,7 +21,7 @@ pub struct Cost {
 
 /// Times and bytes of one kernel, or of all together, a rebuild each.
 #[derive(Default)]
-pub struct Samples {
+pub(super) struct Samples {
     pub ms: Vec<f64>,
     pub bytes: u64,
 }
@@ -46,10 +46,10 @@ impl Samples {
     }
 }
 
-pub const HEADS: [&str; 8] = ["kernel", "median ms", "p5", "p95", "MB", "GB/s", "floor ms", "ratio"];
-
 impl Cost {
-    pub fn row(&self) -> Vec<String> {
+    pub const HEADS: [&'static str; 8] = ["kernel", "median ms", "p5", "p95", "MB", "GB/s", "floor ms", "ratio"];
+
+    pub fn cells(&self) -> Vec<String> {
         let Spread { median_ms, p5_ms, p95_ms } = self.time;
         vec![
             self.kernel.clone(),

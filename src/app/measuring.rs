@@ -1,0 +1,245 @@
+//! Experiments of the window: what is chosen, the one on its way, and the last one's report with what it is of.
+//!
+//! ```text
+//! Order ─► Measuring ─► Experiment (an engine of its own on the window's GPU) ─► Report ─► panel, clipboard, file
+//! ```
+//!
+//! An experiment measures the scene and the moment as they are when it is started; a frame of the window gives it a
+//! slice of GPU time beside the picture's.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::App;
+use super::journal::Severity;
+use super::screenshots::Content;
+use crate::experiment::{self, BenchOptions, Experiment, Report, State, Subject};
+use crate::gpu::Gpu;
+use crate::prepare::Prepared;
+use crate::settings::{Look, Settings, View};
+
+/// Rebuilds before those that are measured.
+const WARMUP: u32 = 1;
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Measure {
+    #[default]
+    Kernels,
+    Light,
+    Surfaces,
+    Voxels,
+    Shadows,
+}
+
+/// What a person does with experiments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Order {
+    Choose(Measure),
+    /// Frames that are measured.
+    Runs(u32),
+    Start,
+    Cancel,
+    Copy,
+    Save,
+}
+
+/// What a report is of.
+#[derive(Clone)]
+pub struct Measured {
+    prepared: Arc<Prepared>,
+    settings: Settings,
+    measure: Measure,
+}
+
+impl PartialEq for Measured {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.prepared, &other.prepared)
+            && (self.measure, &self.settings) == (other.measure, &other.settings)
+    }
+}
+
+impl Measured {
+    /// `settings`: of the picture that is shown. What the measure does not depend on is as it is at first, so that
+    /// a report outlives another view.
+    pub fn new(prepared: &Arc<Prepared>, settings: &Settings, measure: Measure) -> Self {
+        let shown = &settings.look;
+        let look = match measure {
+            Measure::Kernels => Look { view: View::Voxels, accuracy: false, ..shown.clone() },
+            Measure::Surfaces => Look { camera: shown.camera, ..Look::default() },
+            Measure::Light | Measure::Voxels | Measure::Shadows => Look::default(),
+        };
+        Self { prepared: Arc::clone(prepared), settings: Settings { look, ..settings.clone() }, measure }
+    }
+
+    fn begin(&self, gpu: &Arc<Gpu>, runs: u32) -> Experiment {
+        let subject = Subject { prepared: Arc::clone(&self.prepared), settings: self.settings.clone(), runs };
+        let nothing = BenchOptions { warmup: WARMUP, rebuild: false, light: false, surfaces: false };
+        let pose = vec![self.settings.motion.clone()];
+        match self.measure {
+            Measure::Kernels => experiment::bench(gpu, subject, BenchOptions { rebuild: true, ..nothing }),
+            Measure::Light => experiment::bench(gpu, subject, BenchOptions { light: true, ..nothing }),
+            Measure::Surfaces => experiment::bench(gpu, subject, BenchOptions { surfaces: true, ..nothing }),
+            Measure::Voxels => experiment::voxels(gpu, subject, pose, false),
+            Measure::Shadows => experiment::shadows(gpu, subject, pose),
+        }
+    }
+}
+
+/// What the window shows in a frame.
+pub struct Shown<'a> {
+    pub gpu: &'a Arc<Gpu>,
+    pub prepared: &'a Arc<Prepared>,
+    pub settings: &'a Settings,
+    /// GPU time for the experiment.
+    pub budget: Duration,
+}
+
+pub struct Measuring {
+    pub measure: Measure,
+    pub runs: u32,
+    is_ordered: bool,
+    running: Option<Experiment>,
+    /// Of the experiment on its way, else of the last one.
+    measured: Option<Measured>,
+    report: Option<Report>,
+    is_of_shown: bool,
+}
+
+impl Default for Measuring {
+    fn default() -> Self {
+        Self {
+            measure: Measure::default(),
+            runs: 5,
+            is_ordered: false,
+            running: None,
+            measured: None,
+            report: None,
+            is_of_shown: false,
+        }
+    }
+}
+
+impl Measuring {
+    pub const RUNS: std::ops::RangeInclusive<u32> = 1..=1000;
+
+    /// Begins with the next frame of the window.
+    pub fn start(&mut self) {
+        self.is_ordered = true;
+    }
+
+    /// What is measured stays.
+    pub fn cancel(&mut self) {
+        self.is_ordered = false;
+        if let Some(mut experiment) = self.running.take() {
+            experiment.cancel();
+            self.report = Some(experiment.report());
+        }
+    }
+
+    /// Once a frame, after the picture: sentences for the log, and an error as the last one.
+    pub fn follow(&mut self, ctx: &egui::Context, shown: &Shown<'_>) -> (Vec<String>, Result<(), String>) {
+        if std::mem::take(&mut self.is_ordered) {
+            let measured = Measured::new(shown.prepared, shown.settings, self.measure);
+            self.running = Some(measured.begin(shown.gpu, self.runs));
+            self.measured = Some(measured);
+        }
+        let now = self.measured.as_ref().map(|of| Measured::new(shown.prepared, shown.settings, of.measure));
+        self.is_of_shown = now == self.measured;
+        let Some(experiment) = &mut self.running else { return (Vec::new(), Ok(())) };
+        let advanced = experiment.advance(shown.budget).map_err(|error| error.to_string());
+        let remarks = experiment.take_remarks().into_iter().map(|remark| remark.sentence().to_owned()).collect();
+        self.report = Some(experiment.report());
+        if experiment.state() != State::Working {
+            self.running = None;
+        }
+        ctx.request_repaint();
+        (remarks, advanced.map(drop))
+    }
+
+    /// How far it is between 0 and 1, and what it does.
+    pub fn progress(&self) -> Option<(f32, String)> {
+        self.running.as_ref().map(|experiment| (experiment.fraction(), experiment.doing()))
+    }
+
+    /// Of the experiment on its way as far as it is, else of the last one.
+    pub fn report(&self) -> Option<&Report> {
+        self.report.as_ref()
+    }
+
+    /// Whether the report is of what is shown.
+    pub fn is_of_shown(&self) -> bool {
+        self.is_of_shown
+    }
+
+    pub fn is_busy(&self) -> bool {
+        self.is_ordered || self.running.is_some()
+    }
+
+    /// Of the report's file.
+    pub fn name(&self) -> Option<String> {
+        let (measured, report) = (self.measured.as_ref()?, self.report.as_ref()?);
+        Some(format!("{}-{}", measured.prepared.scene.name, report.experiment))
+    }
+
+    pub fn json(&self) -> Option<String> {
+        serde_json::to_string_pretty(self.report.as_ref()?).ok()
+    }
+}
+
+impl App {
+    pub(super) fn measure(&mut self, ctx: &egui::Context, order: Order) {
+        let measuring = &mut self.desk.measuring;
+        match order {
+            Order::Choose(measure) => measuring.measure = measure,
+            Order::Runs(runs) => measuring.runs = runs,
+            Order::Start => measuring.start(),
+            Order::Cancel => measuring.cancel(),
+            Order::Copy => measuring.json().into_iter().for_each(|json| ctx.copy_text(json)),
+            Order::Save => {
+                if let Some((name, json)) = measuring.name().zip(measuring.json()) {
+                    self.screenshots.save(ctx, Content::Report(json), &name);
+                }
+            }
+        }
+    }
+
+    /// Gives an experiment that is on its way its slice of a frame of the window.
+    pub(super) fn follow_measuring(&mut self, ctx: &egui::Context, settings: &Settings) {
+        let Some(ready) = &self.scene else { return };
+        let (stage, prepared) = (&self.stage, &ready.prepared);
+        // The picture first.
+        let is_shared = stage.working().is_some() || self.latency.is_under_input();
+        let budget = if is_shared { stage.pace.budget_under_input } else { stage.pace.budget };
+        let shown = Shown { gpu: stage.engine.gpu(), prepared, settings, budget };
+        let (sentences, outcome) = self.desk.measuring.follow(ctx, &shown);
+        sentences.into_iter().for_each(|sentence| self.journal.note(Severity::Warning, sentence));
+        if let Err(error) = outcome {
+            self.journal.tell(Severity::Error, error);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prepare::prepare;
+    use crate::progress::Progress;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_report_outlives_what_it_does_not_depend_on() {
+        let settings = Settings::default();
+        let prepared = prepare(Arc::new(Scene::default()), &settings.discretization, None, &Progress::default());
+        let prepared = Arc::new(prepared.expect("nothing to voxelize"));
+        let mut sliced = settings.clone();
+        sliced.look = Look { view: View::Slice, level: Some(3), ..Look::default() };
+        let mut later = settings.clone();
+        later.motion.time_secs = 1.0;
+        let of = |settings: &Settings, measure| Measured::new(&prepared, settings, measure);
+        assert!(of(&settings, Measure::Voxels) == of(&sliced, Measure::Voxels));
+        assert!(of(&settings, Measure::Kernels) != of(&sliced, Measure::Kernels), "the level that is drawn");
+        assert!(of(&settings, Measure::Voxels) != of(&later, Measure::Voxels));
+        assert!(of(&settings, Measure::Voxels) != of(&settings, Measure::Shadows));
+    }
+}

@@ -1,0 +1,173 @@
+//! Holes and spill of moved voxels, nearest and split, against the posed mesh voxelized exactly.
+//!
+//! *Holes* are cells of the exact posed voxelization that no moved voxel reached; *spill* is cells
+//! that only moved voxels reached.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use super::{picture_stem, posed};
+use crate::accuracy::percent;
+use crate::engine::FilterReport;
+use crate::experiment::board::Share;
+use crate::experiment::frames::{Forget, Frames};
+use crate::experiment::lab::{Lab, NO_PICTURE};
+use crate::experiment::report::{Found, Table, name_of, turn};
+use crate::experiment::{Experiment, ExperimentError, NamedPicture, Subject};
+use crate::gpu::Gpu;
+use crate::settings::{Filter, MotionSettings, Settings, View};
+use crate::spread::Spread;
+
+/// Size of the ghost pictures.
+const SIZE_PX: [u32; 2] = [960, 540];
+
+/// One pose on one grid, both filters.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct VoxelRow {
+    pub scene: String,
+    pub clip: Option<String>,
+    pub time_secs: f64,
+    pub turn_degrees: [f64; 3],
+    pub grid: u32,
+    pub span: f64,
+    /// Cells of the exact posed voxelization.
+    pub exact: u64,
+    pub nearest: FilterReport,
+    pub split: FilterReport,
+}
+
+/// Both filters in every pose; milliseconds are medians. With `draws`, a ghost of each as well.
+pub fn voxels(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>, draws: bool) -> Experiment {
+    subject.settings.look.view = View::Voxels;
+    subject.settings.look.accuracy = true;
+    let found = |rows: Vec<VoxelRow>| Found::Voxels { rows };
+    Experiment::begin(gpu, ("voxels", subject), (Vec::new(), found), async move |mut lab, rows| {
+        for (number, pose) in poses.iter().enumerate() {
+            let share = Share::WHOLE.part(number, poses.len());
+            let settings = posed(&lab, pose);
+            let row = compare_filters(&mut lab, &settings, share).await?;
+            rows.borrow_mut().push(row);
+            if draws {
+                draw_ghosts(&mut lab, &settings, number).await?;
+            }
+        }
+        Ok(())
+    })
+}
+
+async fn compare_filters(lab: &mut Lab, settings: &Settings, share: Share) -> Result<VoxelRow, ExperimentError> {
+    let [voxelizing, building, measuring] = share.split([2.0, 1.0, lab.runs as f32]);
+    take_exact(lab, settings, voxelizing).await?;
+    lab.say(building, "building by both filters");
+    lab.run(settings, NO_PICTURE, building).await?;
+    let (mut nearest_ms, mut split_ms) = (Vec::new(), Vec::new());
+    let frames = Frames {
+        what: "building by both filters",
+        settings,
+        size_px: NO_PICTURE,
+        forget: Forget::Everything,
+        warmup: 0,
+        runs: lab.runs,
+    };
+    lab.measure(frames, measuring, |engine, _| {
+        let report = engine.accuracy();
+        nearest_ms.extend(report.and_then(|report| Some(report.nearest?.kernel_ms)));
+        split_ms.extend(report.and_then(|report| Some(report.split?.kernel_ms)));
+    })
+    .await?;
+    let scene = &lab.prepared.scene;
+    let nothing = || ExperimentError::NoVoxels(scene.name.clone());
+    let report = lab.engine.accuracy().ok_or_else(nothing)?;
+    let with_median = |filter: Option<FilterReport>, times_ms: &[f64]| {
+        let kernel_ms = Spread::of(times_ms)?.median_ms;
+        filter.map(|filter| FilterReport { kernel_ms, ..filter })
+    };
+    let clip = lab.prepared.clip_index(&settings.motion)?;
+    Ok(VoxelRow {
+        scene: scene.name.clone(),
+        clip: clip.map(|clip| scene.clips[clip].name.clone()),
+        time_secs: settings.motion.time_secs,
+        turn_degrees: settings.motion.turn_degrees,
+        grid: settings.discretization.grid,
+        span: lab.prepared.grid.span,
+        exact: report.exact_cells.ok_or_else(nothing)?,
+        nearest: with_median(report.nearest, &nearest_ms).ok_or_else(nothing)?,
+        split: with_median(report.split, &split_ms).ok_or_else(nothing)?,
+    })
+}
+
+/// Voxelizes the posed mesh exactly.
+async fn take_exact(lab: &mut Lab, settings: &Settings, share: Share) -> Result<(), ExperimentError> {
+    let (prepared, motion) = (Arc::clone(&lab.prepared), settings.motion.clone());
+    let hidden = prepared.hidden(&settings.visibility)?;
+    let exact =
+        lab.work((share, "voxelizing the posed mesh"), move |progress| prepared.exact(&motion, &hidden, progress));
+    let exact = exact.await??;
+    lab.warn(&exact.warnings);
+    lab.engine.offer_exact(Arc::new(exact));
+    Ok(())
+}
+
+/// `STEM-nearest` and `STEM-split`.
+async fn draw_ghosts(lab: &mut Lab, settings: &Settings, number: usize) -> Result<(), ExperimentError> {
+    let mut settings = settings.clone();
+    settings.look.view = View::Ghost;
+    settings.look.accuracy = false;
+    let stem = picture_stem(lab, &settings, number);
+    for filter in [Filter::Nearest, Filter::Split] {
+        settings.discretization.filter = filter;
+        lab.draw(&settings, SIZE_PX).await?;
+        let picture = lab.engine.read_image()?;
+        lab.show(NamedPicture { name: format!("{stem}-{}", name_of(&filter)), picture, settings: settings.clone() });
+    }
+    Ok(())
+}
+
+impl VoxelRow {
+    const HEADS: [&'static str; 12] = [
+        "scene",
+        "clip",
+        "time s",
+        "turn °",
+        "grid",
+        "exact cells",
+        "nearest ms",
+        "nearest holes %",
+        "nearest spill %",
+        "split ms",
+        "split holes %",
+        "split spill %",
+    ];
+
+    pub(in crate::experiment) fn table(rows: &[Self]) -> Table {
+        Table::new("accuracy", &Self::HEADS, rows.iter().map(Self::cells))
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let mut cells = vec![
+            self.scene.clone(),
+            self.clip.clone().unwrap_or_default(),
+            format!("{:.3}", self.time_secs),
+            turn(self.turn_degrees),
+            self.grid.to_string(),
+            self.exact.to_string(),
+        ];
+        let shown = |share: Option<f64>| share.map(|percent| format!("{percent:.3}")).unwrap_or_default();
+        let costs = |filter: &FilterReport| {
+            [format!("{:.2}", filter.kernel_ms), shown(self.holes_percent(filter)), shown(spill_percent(filter))]
+        };
+        cells.extend([&self.nearest, &self.split].into_iter().flat_map(costs));
+        cells
+    }
+
+    /// Of the exact cells; `None` where holes were not counted.
+    fn holes_percent(&self, filter: &FilterReport) -> Option<f64> {
+        Some(percent(filter.holes?, self.exact))
+    }
+}
+
+/// Of the cells that moved voxels reached; `None` where spill was not counted.
+fn spill_percent(filter: &FilterReport) -> Option<f64> {
+    Some(percent(filter.spill?, filter.leaves))
+}

@@ -1,0 +1,41 @@
+//! Why an experiment cannot go on.
+
+use super::TraceError;
+use crate::accuracy::picture_error::CompareError;
+use crate::engine::EngineError;
+use crate::gpu::GpuError;
+use crate::prepare::LightsError;
+use crate::prepare::{ExactError, MotionError};
+use crate::settings::VisibilityError;
+
+#[derive(Debug, thiserror::Error)]
+pub enum ExperimentError {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    #[error(transparent)]
+    Visibility(#[from] VisibilityError),
+    #[error(transparent)]
+    Lights(#[from] LightsError),
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+    #[error(transparent)]
+    Compare(#[from] CompareError),
+    #[error("{0} has no voxels to compare")]
+    NoVoxels(String),
+    #[error("{0}: no light shines that could cast a shadow")]
+    NoLight(String),
+    #[error("{0}: no kernel was timed")]
+    NoTimes(String),
+    #[error("{scene}: paths show no {part}")]
+    NoPaths { scene: String, part: String },
+    #[error("{what}: no thread for it: {cause}")]
+    NoThread { what: String, cause: std::io::Error },
+    #[error("{0} ended unexpectedly")]
+    Died(String),
+}

@@ -1,0 +1,163 @@
+//! What kernels cost, and what moved voxels, their light and cones get wrong: measurements that take long, on an engine
+//! of their own.
+//!
+//! ```text
+//! Subject ─► Experiment ──advance(budget)──► Working, … ─► Report: rows, tables, JSON
+//!               └─► Engine over a shared Gpu, threads for work of the CPU
+//! ```
+//!
+//! An experiment is written as a procedure that pauses after every slice: an `async fn`, which the compiler turns into
+//! a state machine. Nothing runs it but [`Experiment::advance`]; there is no executor. Times belong to the passes of its
+//! own frames, so several experiments and a window may share one GPU.
+
+mod accuracy;
+mod bench;
+mod board;
+mod cost;
+mod error;
+mod frames;
+mod lab;
+mod report;
+mod surface_work;
+
+use std::cell::RefCell;
+use std::pin::Pin;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::task::{Context, Poll, Waker};
+use std::time::Duration;
+
+use crate::gpu::{Gpu, GpuError};
+use crate::prepare::Prepared;
+use crate::settings::Settings;
+
+pub use accuracy::rendering::{RenderingOptions, RenderingRow, paths_in_that_time, rendering};
+pub use accuracy::shadows::{ShadowRow, shadows};
+pub use accuracy::traced::{TraceError, Traced, traced};
+pub use accuracy::voxels::{VoxelRow, voxels};
+pub use bench::light::LightReport;
+pub use bench::surfaces::SurfaceReport;
+pub use bench::{BenchOptions, KernelReport, bench};
+pub use board::{NamedPicture, Remark};
+pub use cost::Cost;
+pub use error::ExperimentError;
+pub use report::{Found, Report, Table};
+pub use surface_work::SurfaceWork;
+
+use board::Board;
+use lab::Lab;
+
+/// What is measured, and how often.
+#[derive(Clone)]
+pub struct Subject {
+    pub prepared: Arc<Prepared>,
+    pub settings: Settings,
+    /// Frames measured.
+    pub runs: u32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    Working,
+    /// All rows are there.
+    Finished,
+    /// By a person, or by an error; the rows that were finished are there.
+    Cancelled,
+}
+
+type Procedure = Pin<Box<dyn Future<Output = Result<(), ExperimentError>>>>;
+
+/// A measurement on its way. Dropping it cancels it.
+pub struct Experiment {
+    gpu: Arc<Gpu>,
+    board: Rc<Board>,
+    /// Owns the engine; `None` once it has ended.
+    procedure: Option<Procedure>,
+    state: State,
+    /// Without its rows.
+    head: Report,
+    found: Box<dyn Fn() -> Found>,
+}
+
+impl Experiment {
+    /// `rows`: none so far. The procedure adds to them.
+    fn begin<R: Clone + 'static>(
+        gpu: &Arc<Gpu>,
+        (name, subject): (&'static str, Subject),
+        (rows, found): (R, fn(R) -> Found),
+        procedure: impl AsyncFnOnce(Lab, Rc<RefCell<R>>) -> Result<(), ExperimentError> + 'static,
+    ) -> Self {
+        let head = Report::new(name, &gpu.info, &subject.settings, found(rows.clone()));
+        let (board, rows) = (Rc::new(Board::default()), Rc::new(RefCell::new(rows)));
+        let lab = Lab::new(Arc::clone(gpu), subject, Rc::clone(&board));
+        let shared = Rc::clone(&rows);
+        Self {
+            gpu: Arc::clone(gpu),
+            board,
+            procedure: Some(Box::pin(async move { procedure(lab, shared).await })),
+            state: State::Working,
+            head,
+            found: Box::new(move || found(rows.borrow().clone())),
+        }
+    }
+
+    /// Works on it for about `budget` of GPU time; blocks at most for what the GPU has already begun. An error ends it
+    /// and is told once; the rows that were finished stay.
+    pub fn advance(&mut self, budget: Duration) -> Result<State, ExperimentError> {
+        let Some(procedure) = &mut self.procedure else { return Ok(self.state) };
+        self.board.budget.set(budget);
+        if let Poll::Ready(outcome) = procedure.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+            self.procedure = None;
+            self.state = if outcome.is_ok() { State::Finished } else { State::Cancelled };
+            outcome?;
+        }
+        Ok(self.state)
+    }
+
+    /// Blocks until there is something to advance: for who has nothing else to do.
+    pub fn wait(&self) -> Result<(), GpuError> {
+        if self.board.waits_for_thread.get() {
+            // A thread that ends wakes this one; its progress does not.
+            std::thread::park_timeout(Duration::from_millis(50));
+            return Ok(());
+        }
+        self.gpu.wait()
+    }
+
+    /// Ends it, and drops its engine; the rows that are finished stay.
+    pub fn cancel(&mut self) {
+        if self.procedure.take().is_some() {
+            self.state = State::Cancelled;
+        }
+    }
+
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// The part that is done, 0 to 1.
+    pub fn fraction(&self) -> f32 {
+        self.board.fraction.get()
+    }
+
+    /// What is being done, a short sentence.
+    pub fn doing(&self) -> String {
+        self.board.doing.borrow().clone()
+    }
+
+    /// What was to be told since the last call.
+    pub fn take_remarks(&self) -> Vec<Remark> {
+        self.board.remarks.take()
+    }
+
+    /// What was drawn since the last call.
+    pub fn take_pictures(&self) -> Vec<NamedPicture> {
+        self.board.pictures.take()
+    }
+
+    /// What was found so far.
+    pub fn report(&self) -> Report {
+        let cancelled = self.state == State::Cancelled;
+        Report { cancelled, found: (self.found)(), ..self.head.clone() }
+    }
+}
