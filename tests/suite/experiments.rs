@@ -8,7 +8,6 @@ use std::time::Duration;
 use octolume::engine::{Engine, FilterReport};
 use octolume::experiment::{self, BenchOptions, Experiment, ExperimentError, Found, State, Subject, VoxelRow};
 use octolume::gpu::Gpu;
-use octolume::lights;
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::Material;
@@ -209,7 +208,7 @@ fn kernels_move_the_bytes_that_an_engine_counts() {
 #[test]
 fn shadows_have_a_row_for_every_method() {
     let subject = subject();
-    let known = lights::known_in(&subject.prepared, &subject.settings).expect("a pose");
+    let known = subject.prepared.known_lights(&subject.settings).expect("a pose");
     assert_eq!(known.len(), 1);
     let mut experiments = [experiment::shadows(&Arc::new(device::open()), subject, vec![MotionSettings::default()])];
     finish(&mut experiments);
