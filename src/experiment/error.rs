@@ -4,8 +4,7 @@ use super::TraceError;
 use crate::accuracy::picture_error::CompareError;
 use crate::engine::EngineError;
 use crate::gpu::GpuError;
-use crate::prepare::LightsError;
-use crate::prepare::{ExactError, MotionError};
+use crate::prepare::{ExactError, LightsError, MotionError};
 use crate::settings::VisibilityError;
 
 #[derive(Debug, thiserror::Error)]

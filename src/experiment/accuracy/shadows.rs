@@ -10,6 +10,7 @@ use super::posed;
 use crate::accuracy::alone;
 use crate::accuracy::posed_triangles::PosedTriangles;
 use crate::accuracy::shadows::{LeafPlaces, POINTS, ShadowError, TrueShadows, spread};
+use crate::data::world_voxels::WorldVoxels;
 use crate::engine::PassTiming;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames};
@@ -129,9 +130,9 @@ async fn lights(lab: &mut Lab, settings: &Settings, share: Share) -> Result<Vec<
     let [building, casting] = share.split([1.0, 2.0]);
     lab.say(building, "building voxels");
     lab.run(&settings, NO_PICTURE, building).await?;
-    let cells = lab.engine.read_voxels()?.cells;
+    let voxels = lab.engine.read_voxels()?;
     let cast =
-        lab.work((casting, "casting rays to lights"), move |progress| cast(&prepared, shining, (&cells, progress)));
+        lab.work((casting, "casting rays to lights"), move |progress| cast(&prepared, shining, (&voxels, progress)));
     let (lights, warnings) = cast.await??;
     lab.warn(&warnings);
     Ok(lights)
@@ -141,11 +142,11 @@ async fn lights(lab: &mut Lab, settings: &Settings, share: Share) -> Result<Vec<
 fn cast(
     prepared: &Prepared,
     shining: Vec<(String, Settings)>,
-    (cells, progress): (&[[i32; 3]], &Progress),
+    (voxels, progress): (&WorldVoxels, &Progress),
 ) -> Result<(Vec<Compared>, Vec<String>), ExperimentError> {
     let Some((_, settings)) = shining.first() else { return Ok((Vec::new(), Vec::new())) };
     progress.add_total(1 + shining.len() as u64);
-    let leaves = LeafPlaces::new(cells, &prepared.grid);
+    let leaves = LeafPlaces::new(voxels, &prepared.grid);
     let hidden = prepared.hidden(&settings.visibility)?;
     let triangles = PosedTriangles::new(prepared, &settings.motion, &hidden)?;
     let points = spread(&triangles, POINTS);

@@ -2,8 +2,7 @@
 
 use crate::accuracy::path_tracer::{Film, Options, Scene};
 use crate::disk_cache::DiskCache;
-use crate::prepare::LightsError;
-use crate::prepare::Prepared;
+use crate::prepare::{LightsError, Prepared};
 use crate::progress::{Cancelled, Progress};
 use crate::settings::Settings;
 
