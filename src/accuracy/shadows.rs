@@ -13,6 +13,7 @@ use serde::Serialize;
 use super::posed_triangles::{PosedTriangles, SurfacePoint};
 use crate::color::luminance;
 use crate::data::grid::{Grid, morton_key};
+use crate::data::world_voxels::WorldVoxels;
 use crate::lights::PosedLight;
 use crate::scene::LightKind;
 use crate::stages::light::illuminate_ref::{self, Light, Source};
@@ -54,9 +55,8 @@ pub struct LeafPlaces {
 }
 
 impl LeafPlaces {
-    /// `cells`: of the leaves, sorted by Morton key.
-    pub fn new(cells: &[[i32; 3]], grid: &Grid) -> Self {
-        let keys = cells.iter().map(|cell| morton_key(cell.map(|c| c as u32))).collect();
+    pub fn new(voxels: &WorldVoxels, grid: &Grid) -> Self {
+        let keys = voxels.cells.iter().map(|cell| morton_key(cell.map(|c| c as u32))).collect();
         Self { keys, cells: f64::from(grid.cells()) }
     }
 

@@ -87,7 +87,7 @@ fn errors(settings: &Settings) -> ([ShadowError; 3], f64) {
     engine.set_prepared(Some(Arc::clone(&prepared)));
     let found = [Shadows::Map, Shadows::March, Shadows::Off].map(|shadows| lit(&mut engine, settings, shadows));
     let triangles = posed(&prepared);
-    let leaves = LeafPlaces::new(&engine.read_voxels().expect("is built").cells, &prepared.grid);
+    let leaves = LeafPlaces::new(&engine.read_voxels().expect("is built"), &prepared.grid);
     let pose = prepared.pose(&settings.motion).expect("a pose");
     let lights = posed_lights(&prepared.scene, &pose, &settings.lighting, &[true; 2], false);
     let points = spread(&triangles, POINTS);
