@@ -1,6 +1,7 @@
 //! Cones from surfaces against closed forms: an open plane, a wall on a floor, a hole in a ceiling, a white
-//! furnace, a mirror. Tables by cone count with `--nocapture`.
+//! furnace, a mirror. Tables by cone count with `--nocapture`; as JSON where `OCTOLUME_MEASURED` names a folder.
 
+use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
@@ -12,11 +13,13 @@ use octolume::stages::cones::diffuse::{DiffuseCones, DiffuseTerms};
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::sample::Sampler;
 use octolume::stages::view::LEAST_LIGHT;
+use serde::{Deserialize, Serialize};
 
 use crate::cone_gloss::reflected;
 use crate::cone_light::scattered;
 use crate::cone_rig::{NOTHING, Photo, SPOT_PX, diffuse, dull, mean, plane_distance, spot};
 use crate::device::gpu;
+use crate::doc_tables::measured;
 use crate::lit_octree::LitBuild;
 use crate::octree_rules::Cell;
 use crate::random::ONE;
@@ -28,6 +31,32 @@ const CELLS: i64 = 64;
 /// Lowest layer of the floor, which is one voxel thick.
 const FLOOR: i64 = 9;
 const BOTH: DiffuseTerms = DiffuseTerms { radiance: true, occlusion: true };
+
+const COMMAND: &str = "cargo test --test suite cone_forms";
+
+/// Share of the sky that a wall hides from a floor.
+#[derive(Serialize, Deserialize)]
+pub struct WallRow {
+    pub aperture_degrees: f64,
+    pub opacity: Opacity,
+    pub distance_voxels: f64,
+    /// ½(1 − cos φ) of an infinite wall as high.
+    pub infinite: f64,
+    /// Of this wall, in closed form.
+    pub closed: f64,
+    /// By cones, by their number.
+    pub hidden: BTreeMap<u32, f64>,
+}
+
+/// Share of the sky that a square hole in a ceiling lets in.
+#[derive(Serialize, Deserialize)]
+pub struct HoleRow {
+    pub side_voxels: i64,
+    pub closed: f64,
+    /// By cones of 4° and of 30°.
+    pub narrow: f64,
+    pub wide: f64,
+}
 
 /// A voxel in every cell of a box, `raise` 256ths of a cell higher.
 fn solid(low: [i64; 3], high: [i64; 3], raise: i64) -> impl Iterator<Item = Fragment> {
@@ -115,6 +144,7 @@ fn a_wall_hides_half_of_one_minus_the_cosine_of_its_height() {
     let octree = built(floor(0).chain(solid([WALL, 0, FLOOR], [WALL + 2, CELLS, CELLS], 0)), |_| 0.0);
     println!("share of the sky that a wall of two voxels hides; infinite: ½(1 − cos φ), φ = atan(h / d)");
     println!("aperture  opacity      distance  infinite  this wall  cones: 64 x 16, 16 x 16, 4 x 16, 1 x 16, 4");
+    let mut rows = Vec::new();
     for (degrees, opacity, slack) in
         [(4.0, Opacity::Isotropic, 0.02), (30.0, Opacity::Isotropic, 0.3), (30.0, Opacity::Directional, 0.25)]
     {
@@ -128,6 +158,18 @@ fn a_wall_hides_half_of_one_minus_the_cosine_of_its_height() {
                 let settings = ConeTracing { pattern_px, ..tracing(cones, degrees) };
                 1.0 - seen(&octree, opacity, &settings, (point, DVec3::Z))[1]
             });
+            rows.push(WallRow {
+                aperture_degrees: degrees,
+                opacity,
+                distance_voxels: distance,
+                infinite,
+                closed: expected,
+                hidden: sets
+                    .map(|(cones, pattern_px)| cones * pattern_px * pattern_px)
+                    .into_iter()
+                    .zip(hidden)
+                    .collect(),
+            });
             let opacity = format!("{opacity:?}");
             println!("{degrees:7}°  {opacity:11}  {distance:8}  {infinite:8.3}  {expected:9.3}  {hidden:.3?}");
             // A wide cone that goes up along the wall blends it with the air beside it, and stops.
@@ -138,12 +180,14 @@ fn a_wall_hides_half_of_one_minus_the_cosine_of_its_height() {
             }
         }
     }
+    measured::keep("walls.json", COMMAND, rows);
 }
 
 #[test]
 fn the_sky_through_a_hole_is_its_form_factor() {
     const CEILING: i64 = 34;
     println!("sky through a square hole 25 voxels above a floor: its side, closed form, cones of 30° and of 4°");
+    let mut rows = Vec::new();
     for side in [12_i64, 24, 40] {
         let (low, high) = (32 - side / 2, 32 + side / 2);
         let is_hole = |q: [i64; 3]| q.iter().take(2).all(|c| (low * ONE..high * ONE).contains(c));
@@ -158,10 +202,12 @@ fn the_sky_through_a_hole_is_its_form_factor() {
         let expected = form_factor(point, DVec3::Z, &rim);
         let open =
             [30.0, 4.0].map(|degrees| seen(&octree, Opacity::Isotropic, &tracing(16, degrees), (point, DVec3::Z))[0]);
+        rows.push(HoleRow { side_voxels: side, closed: expected, narrow: open[1], wide: open[0] });
         println!("{side:3}   {expected:.3}   {:.3} {:.3}", open[0], open[1]);
         assert!((open[1] - expected).abs() < 0.035, "{side}: {open:?}, not {expected}");
         assert!((open[0] - expected).abs() < 0.2, "{side}: {open:?}, not {expected}");
     }
+    measured::keep("holes.json", COMMAND, rows);
 }
 
 #[test]

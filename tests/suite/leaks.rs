@@ -1,13 +1,17 @@
 //! What thin walls let through at each level: closed forms where there are any, and a table
-//! (`--nocapture`).
+//! (`--nocapture`; as JSON where `OCTOLUME_MEASURED` names a folder).
+
+use std::collections::BTreeMap;
 
 use glam::DVec3;
 use octolume::settings::lighting::Opacity;
 use octolume::settings::{Filter, Lookup, Sampling};
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::sample::Sampler;
+use serde::{Deserialize, Serialize};
 
 use crate::device::gpu;
+use crate::doc_tables::measured;
 use crate::lit_octree::LitBuild;
 use crate::random::ONE;
 use crate::stage_build::Shape;
@@ -16,6 +20,16 @@ const DEPTH: u32 = 5;
 const CELLS: i64 = 32;
 /// Where the walls begin: at a node's border at every level.
 const FIRST: i64 = 16;
+
+/// What a wall across x lets through of a march.
+#[derive(Serialize, Deserialize)]
+pub struct LeakRow {
+    pub thickness: i64,
+    pub offset_cells: f64,
+    pub opacity: Opacity,
+    /// By the width of the nodes sampled, cells: at their centres, and half-way between them.
+    pub transmission: BTreeMap<u32, [f64; 2]>,
+}
 
 /// Across x, `thickness` voxels thick, shifted by `offset` 256ths of a cell and split.
 fn wall(thickness: i64, offset: i64) -> LitBuild {
@@ -62,14 +76,17 @@ fn walls_let_through_what_the_closed_forms_say_at_every_level() {
     println!("transmission of a wall across x, by the width of the nodes that are sampled (cells):");
     println!("sampled at node centres, and half-way between them");
     println!("voxels  offset  opacity      |         1 |         2 |         4 |         8 |        16 |        32");
+    let mut rows = Vec::new();
     for thickness in [1, 2, 4] {
         for offset in [0, ONE / 4, ONE / 2] {
             let wall = wall(thickness, offset);
             for opacity in [Opacity::Isotropic, Opacity::Directional] {
                 let mut row =
                     format!("{thickness:6}  {:6.2}  {:11} ", offset as f64 / ONE as f64, format!("{opacity:?}"));
+                let mut transmitted = BTreeMap::new();
                 for level in (0..=DEPTH).rev() {
                     let [centre, between] = [0.5, 0.0].map(|phase| transmission(&wall, opacity, level, phase));
+                    transmitted.insert(1 << (DEPTH - level), [centre, between]);
                     row += &format!(" | {centre:.2} {between:.2}");
                     let closed = expected(&layers(thickness, offset), opacity, level);
                     // α comes from an f32 near 1 to the power of 1/w and goes into one to the power of w: 2^-24
@@ -80,9 +97,12 @@ fn walls_let_through_what_the_closed_forms_say_at_every_level() {
                     );
                 }
                 println!("{row}");
+                let offset_cells = offset as f64 / ONE as f64;
+                rows.push(LeakRow { thickness, offset_cells, opacity, transmission: transmitted });
             }
         }
     }
+    measured::keep("leaks.json", "cargo test --test suite leaks", rows);
 }
 
 #[test]

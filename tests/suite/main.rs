@@ -30,6 +30,7 @@ mod direction;
 mod disk_cache;
 mod disk_cache_folder;
 mod disk_cache_key;
+mod doc_tables;
 mod document;
 mod dummies;
 mod emission;
