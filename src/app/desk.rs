@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::background::{Background, Outcome};
-use super::commands::Command;
+use super::command::Command;
 use super::inspector::Inspector;
 use super::measuring::Measuring;
 use super::panels::top_bar::Unfolded;

@@ -3,9 +3,10 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
+use egui::Color32;
 use egui_notify::{Anchor, Toast, ToastLevel, Toasts};
 
-use super::panels::log::color;
+use super::theme;
 
 /// Lines kept.
 const LENGTH: usize = 500;
@@ -15,6 +16,16 @@ pub enum Severity {
     Info,
     Warning,
     Error,
+}
+
+impl Severity {
+    pub fn color(self) -> Color32 {
+        match self {
+            Self::Info => theme::STRONG,
+            Self::Warning => theme::WARNING,
+            Self::Error => theme::ERROR,
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +63,7 @@ impl Journal {
     pub fn tell(&mut self, severity: Severity, text: impl Into<String>) {
         let text = text.into();
         let secs = if severity == Severity::Info { 3 } else { 8 };
-        let mut toast = Toast::basic(egui::RichText::new(wrapped(&text)).color(color(severity)));
+        let mut toast = Toast::basic(egui::RichText::new(wrapped(&text)).color(severity.color()));
         // Without a level there is no symbol, which the fonts may lack.
         toast.level(ToastLevel::None).closable(false).duration(Duration::from_secs(secs)).show_progress_bar(false);
         self.toasts.add(toast);

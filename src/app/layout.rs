@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use egui::{Panel, ScrollArea, TextEdit, Ui};
 
-use super::commands::Command;
+use super::command::Command;
 use super::panels::cones::ConesPanel;
 use super::panels::light::LightPanel;
 use super::panels::reference::ReferencePanel;

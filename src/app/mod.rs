@@ -10,7 +10,8 @@
 //! have threads. A still scene asks for no repaint.
 
 mod background;
-mod commands;
+mod apply;
+mod command;
 mod desk;
 mod device;
 mod exact_job;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Align2, FontId, Rect, Ui, vec2};
 
-use super::commands::Command;
+use super::command::Command;
 use super::exact_job::Posed;
 use super::journal::Severity;
 use super::node_overlay::{self, Projection};

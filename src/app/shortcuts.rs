@@ -3,7 +3,7 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers, Ui};
 
-use super::commands::Command;
+use super::command::Command;
 use super::panels::tree;
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);

@@ -2,7 +2,7 @@
 
 use egui::{PointerButton, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
 
-use super::commands::Command;
+use super::command::Command;
 use super::theme;
 use crate::gpu::GpuTexture;
 use crate::scene::OrbitCamera;

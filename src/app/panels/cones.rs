@@ -6,7 +6,7 @@ use egui::Ui;
 use super::light_editor::angle;
 use super::slice::{lookup_ui, sampling_ui};
 use super::{choice, control, list, nothing, number, slider, unless};
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::settings::{ConeTracing, Look, SurfaceView, View};
 
 const NO_CONES: &str = "No cone is traced.";

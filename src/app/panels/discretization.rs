@@ -3,7 +3,7 @@
 use egui::{ComboBox, DragValue, Slider, Ui};
 
 use super::{choice, control};
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::settings::VoxelizationMode;
 use crate::settings::{Discretization, VoxelAnchor};
 

@@ -3,7 +3,7 @@
 use egui::{Align, Button, Color32, Layout, RichText, Ui, vec2};
 
 use super::{bytes, grouped, milliseconds};
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::theme;
 use crate::engine::{AccuracyReport, FilterReport};
 use crate::settings::{Filter, Settings};

@@ -5,7 +5,7 @@ use egui::{Button, Role, ScrollArea, Ui, WidgetInfo};
 
 use super::light_editor::{Editor, short_unit};
 use super::{light_method, nothing};
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::scale_ticks::short;
 use crate::app::theme;
 use crate::lights::{KnownLight, LightSource, Shines};

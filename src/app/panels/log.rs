@@ -1,10 +1,10 @@
 //! What happened, newest first.
 
-use egui::{Color32, RichText, Ui};
+use egui::{RichText, Ui};
 
 use super::nothing;
-use crate::app::commands::Command;
-use crate::app::journal::{Entry, Severity};
+use crate::app::command::Command;
+use crate::app::journal::Entry;
 use crate::app::theme;
 
 pub fn ui<'a>(ui: &mut Ui, entries: impl DoubleEndedIterator<Item = &'a Entry>) -> Vec<Command> {
@@ -17,18 +17,10 @@ pub fn ui<'a>(ui: &mut Ui, entries: impl DoubleEndedIterator<Item = &'a Entry>) 
     for entry in entries {
         ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new(clock(entry.at_secs)).color(theme::WEAK).monospace());
-            ui.label(RichText::new(&entry.text).color(color(entry.severity)));
+            ui.label(RichText::new(&entry.text).color(entry.severity.color()));
         });
     }
     if clear { vec![Command::ClearLog] } else { Vec::new() }
-}
-
-pub fn color(severity: Severity) -> Color32 {
-    match severity {
-        Severity::Info => theme::STRONG,
-        Severity::Warning => theme::WARNING,
-        Severity::Error => theme::ERROR,
-    }
 }
 
 /// Minutes and seconds since the window opened.

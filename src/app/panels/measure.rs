@@ -4,7 +4,7 @@ use egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
 
 use super::table::{self, Cell};
 use super::{control, list, nothing, number, unless};
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::measuring::{Measure, Measuring, Order};
 use crate::app::theme;
 use crate::experiment::{Report, Table};

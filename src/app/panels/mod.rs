@@ -31,7 +31,7 @@ use std::ops::RangeInclusive;
 
 use egui::{CollapsingHeader, ComboBox, DragValue, Response, RichText, Slider, SliderClamping, Ui, WidgetInfo, vec2};
 
-use super::commands::Command;
+use super::command::Command;
 use super::theme;
 
 /// Of a list that is unfolded, before it scrolls.

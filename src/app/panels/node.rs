@@ -3,7 +3,7 @@
 use egui::{Button, Grid, Link, RichText, Role, Ui, WidgetInfo};
 
 use super::{fact, grouped, nothing};
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::inspector::{Inspector, Pin};
 use crate::app::scale_ticks::short;
 use crate::app::theme;

@@ -6,7 +6,7 @@ use egui::{Button, ProgressBar, RichText, Ui};
 use super::table::{self, Cell};
 use super::{choice, control, milliseconds, nothing, number, slider, unless};
 use crate::accuracy::picture_error::PictureError;
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::reference::{Comparison, MeasuredPart, Order, PARTS, Reference, Traced};
 use crate::app::scale_ticks::short;
 use crate::app::theme;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use egui::{ComboBox, Grid, RichText, TextEdit, Ui};
 
 use super::{bytes, fact, grouped, nothing};
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::loader::file_name;
 use crate::app::theme;
 use crate::data::voxel_cache::CacheVoxel;

@@ -4,7 +4,7 @@ use egui::{ComboBox, DragValue, Slider, Ui};
 
 use super::icon::{self, Icon};
 use super::named_number;
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::playback::Playback;
 use crate::app::theme;
 use crate::scene::Clip;

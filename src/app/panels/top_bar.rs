@@ -2,7 +2,7 @@
 
 use egui::{Align, Layout, ProgressBar, RichText, Ui};
 
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::theme;
 
 /// What is shown; nothing here is kept.

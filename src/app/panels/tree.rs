@@ -6,7 +6,7 @@ use egui_ltreeview::{Action, TreeView, TreeViewBuilder, TreeViewState};
 
 use super::tree_row::{Offer, Row, TreePanel, offers};
 use super::{node_facts, nothing};
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::outline;
 use crate::app::theme;
 use crate::scene::Scene;

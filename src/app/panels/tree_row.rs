@@ -3,7 +3,7 @@
 use egui::{Color32, Label, RichText, Ui};
 use egui_ltreeview::NodeConfig;
 
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::app::outline::{self, Outline};
 use crate::app::theme;
 use crate::prepare::Prepared;

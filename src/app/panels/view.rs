@@ -3,7 +3,7 @@
 use egui::{Slider, Ui};
 
 use super::{choice, control, list, slice, slider, surfaces};
-use crate::app::commands::Command;
+use crate::app::command::Command;
 use crate::scene::SceneCamera;
 use crate::settings::{AlphaRule, ColorBy, Look, View};
 

@@ -9,7 +9,7 @@ use std::path::Path;
 use source::{Imports, Module};
 
 /// From the lowest to the highest.
-const ORDER: [&str; 18] = [
+const ORDER: [&str; 19] = [
     "digest",
     "spread",
     "progress",
@@ -26,6 +26,7 @@ const ORDER: [&str; 18] = [
     "accuracy",
     "engine",
     "export",
+    "experiment",
     "app",
     "cli",
 ];

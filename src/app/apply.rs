@@ -1,66 +1,10 @@
-//! Everything the window can be told to do. Panels, shortcuts, drops and scripts all end here.
-
-use std::path::PathBuf;
+//! What the window does when it is told.
 
 use super::App;
-use super::inspector::Pin;
-use super::measuring;
+use super::command::Command;
 use super::playback;
-use super::reference::Order;
 use super::screenshots::Format;
-use crate::scene::OrbitCamera;
-use crate::settings::{ConeTracing, Discretization, Lighting, Look, MotionSettings, Visibility};
-
-#[derive(Clone, Debug, PartialEq)]
-pub enum Command {
-    /// Opens a file, or a built-in scene by its name.
-    Open(PathBuf),
-    /// Shows another scene of the file that is open, by its number.
-    ShowScene(usize),
-    /// Lets the desktop's dialog choose one.
-    ChooseFile,
-    CancelLoading,
-    Discretize(Discretization),
-    Look(Look),
-    Light(Lighting),
-    /// Other cones from surfaces.
-    TraceCones(ConeTracing),
-    /// What is done with the path tracer.
-    Reference(Order),
-    /// What is done with experiments.
-    Measure(measuring::Order),
-    /// Another node of the octree is looked at.
-    Pin(Pin),
-    /// Another clip or turn, or a scrub of the timeline.
-    Move(MotionSettings),
-    TogglePlaying,
-    /// Pauses, and goes by so many steps of 1/30 s.
-    Step(i32),
-    Loop(bool),
-    Speed(f64),
-    /// The person moves the camera: coarse until it rests.
-    Camera(OrbitCamera),
-    /// A camera of the file, as it is posed now.
-    SceneCamera(usize),
-    /// Back to the camera that frames everything.
-    FrameAll,
-    /// Brings the selected node into view, everything where none is selected.
-    Frame,
-    /// A node of the scene tree, or none.
-    Select(Option<usize>),
-    /// Hides the selected node, or shows it again.
-    ToggleShown,
-    /// Shows the selected node alone.
-    Isolate,
-    ShowAll,
-    ToggleTree,
-    Undo,
-    Redo,
-    SaveScreenshot,
-    /// The light of the surfaces that are shown, as it is.
-    SaveLight,
-    ClearLog,
-}
+use crate::settings::Visibility;
 
 impl App {
     /// Carries out one command. `clock_secs` is the window's clock.
