@@ -1,6 +1,7 @@
 //! Standard output carries results alone; everything else goes to standard error.
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -104,6 +105,11 @@ pub fn with_progress<T>(what: &'static str, work: impl FnOnce(&Progress) -> T) -
         drop(finished);
         result
     })
+}
+
+/// A picture of light as it is.
+pub fn is_exr(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"))
 }
 
 #[cfg(test)]

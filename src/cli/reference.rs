@@ -81,7 +81,7 @@ fn summary(film: &Film, settings: &Settings) -> String {
 fn write(film: &Film, settings: &Settings, file: &Path) -> anyhow::Result<()> {
     let part = settings.look.surface;
     let light = film.shown(part, &settings.lighting).unwrap_or_default();
-    if super::render::is_exr(file) {
+    if output::is_exr(file) {
         return Ok(export::write_exr(file, film.size_px(), &light)?);
     }
     let picture = Shown::new(&settings.look, part, &light).picture(&light, film.size_px());

@@ -9,6 +9,7 @@ use octolume::settings::{Settings, View};
 use super::Usage;
 use super::look_options::LookOptions;
 use super::options::{Common, Moment};
+use super::output;
 use super::reference::ReferenceOptions;
 use super::session::{self, Session};
 use super::values::{self, Frames, Size};
@@ -78,7 +79,7 @@ impl Render {
         if self.reference.reference {
             self.reference.choose_view(&mut settings, self.look.names_view())?;
         }
-        if is_exr(&self.output) && settings.look.view != View::Surfaces {
+        if output::is_exr(&self.output) && settings.look.view != View::Surfaces {
             let cause = "an .exr file holds linear light, which only views of surfaces give, such as --view final";
             return Err(Usage(cause.to_owned()).into());
         }
@@ -108,17 +109,13 @@ fn draw(session: &mut Session, settings: &Settings, size_px: [u32; 2], file: &Pa
         session.take_exact(settings)?;
     }
     session.run(settings, size_px)?;
-    if is_exr(file) {
+    if output::is_exr(file) {
         // Where nothing is to be seen, all of it is black.
         let nothing = || vec![[0.0; 4]; size_px[0] as usize * size_px[1] as usize];
         let light = session.engine.read_surfaces()?.unwrap_or_else(nothing);
         return Ok(export::write_exr(file, size_px, &light)?);
     }
     Ok(export::write_png(file, &session.engine.read_image()?, settings)?)
-}
-
-pub fn is_exr(file: &Path) -> bool {
-    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"))
 }
 
 /// `walk.png` → `walk-0007.png`.

@@ -1,11 +1,20 @@
 //! Why an experiment cannot go on.
 
-use super::TraceError;
 use crate::accuracy::picture_error::CompareError;
 use crate::engine::EngineError;
 use crate::gpu::GpuError;
 use crate::prepare::{ExactError, LightsError, MotionError};
+use crate::progress::Cancelled;
 use crate::settings::VisibilityError;
+
+/// Why there is no traced picture.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TraceError {
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    #[error(transparent)]
+    Lights(#[from] LightsError),
+}
 
 #[derive(Debug, thiserror::Error)]
 pub enum ExperimentError {

@@ -19,6 +19,7 @@ mod frames;
 mod lab;
 mod report;
 mod surface_work;
+mod table;
 
 use std::cell::RefCell;
 use std::pin::Pin;
@@ -33,16 +34,17 @@ use crate::settings::Settings;
 
 pub use accuracy::rendering::{RenderingOptions, RenderingRow, paths_in_that_time, rendering};
 pub use accuracy::shadows::{ShadowRow, shadows};
-pub use accuracy::traced::{TraceError, Traced, traced};
+pub use accuracy::traced::{Traced, traced};
 pub use accuracy::voxels::{VoxelRow, voxels};
 pub use bench::light::LightReport;
 pub use bench::surfaces::SurfaceReport;
 pub use bench::{BenchOptions, KernelReport, bench};
 pub use board::{NamedPicture, Remark};
 pub use cost::Cost;
-pub use error::ExperimentError;
-pub use report::{Found, Report, Table};
+pub use error::{ExperimentError, TraceError};
+pub use report::{Found, Report};
 pub use surface_work::SurfaceWork;
+pub use table::Table;
 
 use board::Board;
 use lab::Lab;
@@ -81,13 +83,13 @@ pub struct Experiment {
 
 impl Experiment {
     /// `rows`: none so far. The procedure adds to them.
-    fn begin<R: Clone + 'static>(
+    fn begin<R: Clone + Into<Found> + 'static>(
         gpu: &Arc<Gpu>,
         (name, subject): (&'static str, Subject),
-        (rows, found): (R, fn(R) -> Found),
+        rows: R,
         procedure: impl AsyncFnOnce(Lab, Rc<RefCell<R>>) -> Result<(), ExperimentError> + 'static,
     ) -> Self {
-        let head = Report::new(name, &gpu.info, &subject.settings, found(rows.clone()));
+        let head = Report::new(name, &gpu.info, &subject.settings, rows.clone().into());
         let (board, rows) = (Rc::new(Board::default()), Rc::new(RefCell::new(rows)));
         let lab = Lab::new(Arc::clone(gpu), subject, Rc::clone(&board));
         let shared = Rc::clone(&rows);
@@ -97,7 +99,7 @@ impl Experiment {
             procedure: Some(Box::pin(async move { procedure(lab, shared).await })),
             state: State::Working,
             head,
-            found: Box::new(move || found(rows.borrow().clone())),
+            found: Box::new(move || rows.borrow().clone().into()),
         }
     }
 

@@ -4,6 +4,7 @@ use std::time::SystemTime;
 
 use serde::Serialize;
 
+use super::table::Table;
 use super::{KernelReport, RenderingRow, ShadowRow, VoxelRow};
 use crate::settings::Settings;
 
@@ -34,18 +35,27 @@ pub enum Found {
     Rendering { rows: Vec<RenderingRow> },
 }
 
-/// Rows as text.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    /// What its files are called.
-    pub stem: &'static str,
-    pub heads: Vec<&'static str>,
-    pub rows: Vec<Vec<String>>,
+impl From<KernelReport> for Found {
+    fn from(report: KernelReport) -> Self {
+        Self::Kernels(Box::new(report))
+    }
 }
 
-impl Table {
-    pub(super) fn new(stem: &'static str, heads: &[&'static str], rows: impl Iterator<Item = Vec<String>>) -> Self {
-        Self { stem, heads: heads.to_vec(), rows: rows.collect() }
+impl From<Vec<VoxelRow>> for Found {
+    fn from(rows: Vec<VoxelRow>) -> Self {
+        Self::Voxels { rows }
+    }
+}
+
+impl From<Vec<ShadowRow>> for Found {
+    fn from(rows: Vec<ShadowRow>) -> Self {
+        Self::Shadows { rows }
+    }
+}
+
+impl From<Vec<RenderingRow>> for Found {
+    fn from(rows: Vec<RenderingRow>) -> Self {
+        Self::Rendering { rows }
     }
 }
 
@@ -88,17 +98,4 @@ impl Report {
             Found::Rendering { rows } => vec![RenderingRow::table(rows)],
         }
     }
-}
-
-/// A value's name in JSON.
-pub(super) fn name_of(value: &impl Serialize) -> String {
-    match serde_json::to_value(value) {
-        Ok(serde_json::Value::String(name)) => name,
-        other => other.map(|value| value.to_string()).unwrap_or_default(),
-    }
-}
-
-/// As angles about x, y and z in tables.
-pub(super) fn turn([x, y, z]: [f64; 3]) -> String {
-    format!("{x} {y} {z}")
 }

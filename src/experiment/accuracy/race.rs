@@ -3,13 +3,13 @@
 
 use serde::Serialize;
 
-use super::rendering::shown;
 use crate::accuracy::path_tracer::{Film, Options, Scene};
-use crate::accuracy::picture_error::{self, PictureError, Shown};
+use crate::accuracy::picture_error::{self, LightPixel, PictureError, Shown};
+use crate::experiment::table::name_of;
 use crate::experiment::{ExperimentError, TraceError};
 use crate::prepare::Prepared;
 use crate::progress::Progress;
-use crate::settings::Settings;
+use crate::settings::{Settings, SurfaceView};
 
 /// Another picture of the path tracer than the one that is the truth.
 const OTHER_SEED: u64 = 0x0c70_1ae0;
@@ -77,6 +77,16 @@ impl Race {
         let as_right = self.as_right.as_ref().map_or("not with a quarter of the truth's samples".to_owned(), told);
         format!("paths in that time: {equal_time}; as right: {as_right}")
     }
+}
+
+/// What paths make of a part of light.
+pub fn shown(
+    film: &Film,
+    part: SurfaceView,
+    (prepared, settings): (&Prepared, &Settings),
+) -> Result<Vec<LightPixel>, ExperimentError> {
+    let no_paths = || ExperimentError::NoPaths { scene: prepared.scene.name.clone(), part: name_of(&part) };
+    film.shown(part, &settings.lighting).ok_or_else(no_paths)
 }
 
 /// FLIP, or what stands in for it.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use image::DynamicImage;
 use serde::Serialize;
 
-use super::race::{Race, flip};
+use super::race::{Race, flip, shown};
 use super::traced::traced;
 use super::{picture_stem, posed};
 use crate::accuracy::path_tracer::{Film, Options, Term};
@@ -18,8 +18,8 @@ use crate::disk_cache::DiskCache;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames, Times};
 use crate::experiment::lab::Lab;
-use crate::experiment::report::{Found, Table, name_of, turn};
 use crate::experiment::surface_work::{self, SurfaceWork};
+use crate::experiment::table::{Table, name_of, turn};
 use crate::experiment::{Experiment, ExperimentError, NamedPicture, Subject};
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
@@ -98,8 +98,7 @@ pub fn rendering(
     options: RenderingOptions,
 ) -> Experiment {
     (subject.settings.look.view, subject.settings.look.surface) = (View::Surfaces, SurfaceView::Final);
-    let found = |rows: Vec<RenderingRow>| Found::Rendering { rows };
-    Experiment::begin(gpu, ("rendering", subject), (Vec::new(), found), async move |mut lab, rows| {
+    Experiment::begin(gpu, ("rendering", subject), Vec::<RenderingRow>::new(), async move |mut lab, rows| {
         for (number, pose) in poses.iter().enumerate() {
             let case = Case { share: Share::WHOLE.part(number, poses.len()), number, options: &options };
             let settings = posed(&lab, pose);
@@ -213,16 +212,6 @@ async fn race(
     let race = race.await??;
     rows.borrow_mut()[place].race = Some(race);
     Ok(())
-}
-
-/// What paths make of a part of light.
-pub fn shown(
-    film: &Film,
-    part: SurfaceView,
-    (prepared, settings): (&Prepared, &Settings),
-) -> Result<Vec<LightPixel>, ExperimentError> {
-    let no_paths = || ExperimentError::NoPaths { scene: prepared.scene.name.clone(), part: name_of(&part) };
-    film.shown(part, &settings.lighting).ok_or_else(no_paths)
 }
 
 impl ReadTerm {

@@ -15,7 +15,7 @@ use crate::engine::PassTiming;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
-use crate::experiment::report::{Found, Table, name_of, turn};
+use crate::experiment::table::{Table, name_of, turn};
 use crate::experiment::{Experiment, ExperimentError, Subject};
 use crate::gpu::Gpu;
 use crate::lights::{KnownLight, Shines, posed_lights};
@@ -77,8 +77,7 @@ struct Compared {
 pub fn shadows(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>) -> Experiment {
     subject.settings.look.view = View::Voxels;
     subject.settings.look.color = ColorBy::Radiance;
-    let found = |rows: Vec<ShadowRow>| Found::Shadows { rows };
-    Experiment::begin(gpu, ("shadows", subject), (Vec::new(), found), async move |mut lab, rows| {
+    Experiment::begin(gpu, ("shadows", subject), Vec::<ShadowRow>::new(), async move |mut lab, rows| {
         for (number, pose) in poses.iter().enumerate() {
             let settings = posed(&lab, pose);
             compare(&mut lab, &settings, (Share::WHOLE.part(number, poses.len()), &rows)).await?;

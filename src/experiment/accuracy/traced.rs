@@ -2,18 +2,10 @@
 
 use crate::accuracy::path_tracer::{Film, Options, Scene};
 use crate::disk_cache::DiskCache;
-use crate::prepare::{LightsError, Prepared};
-use crate::progress::{Cancelled, Progress};
+use crate::experiment::TraceError;
+use crate::prepare::Prepared;
+use crate::progress::Progress;
 use crate::settings::Settings;
-
-/// Why there is none.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TraceError {
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-    #[error(transparent)]
-    Lights(#[from] LightsError),
-}
 
 pub struct Traced {
     pub film: Film,

@@ -13,7 +13,7 @@ use crate::engine::FilterReport;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
-use crate::experiment::report::{Found, Table, name_of, turn};
+use crate::experiment::table::{Table, name_of, turn};
 use crate::experiment::{Experiment, ExperimentError, NamedPicture, Subject};
 use crate::gpu::Gpu;
 use crate::settings::{Filter, MotionSettings, Settings, View};
@@ -41,8 +41,7 @@ pub struct VoxelRow {
 pub fn voxels(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>, draws: bool) -> Experiment {
     subject.settings.look.view = View::Voxels;
     subject.settings.look.accuracy = true;
-    let found = |rows: Vec<VoxelRow>| Found::Voxels { rows };
-    Experiment::begin(gpu, ("voxels", subject), (Vec::new(), found), async move |mut lab, rows| {
+    Experiment::begin(gpu, ("voxels", subject), Vec::<VoxelRow>::new(), async move |mut lab, rows| {
         for (number, pose) in poses.iter().enumerate() {
             let share = Share::WHOLE.part(number, poses.len());
             let settings = posed(&lab, pose);

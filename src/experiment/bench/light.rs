@@ -12,7 +12,7 @@ use crate::experiment::board::Share;
 use crate::experiment::cost::Samples;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
-use crate::experiment::report::Table;
+use crate::experiment::table::Table;
 use crate::experiment::{Cost, ExperimentError};
 use crate::settings::lighting::{Opacity, Shadows};
 use crate::settings::{ColorBy, Lookup, Settings, View};

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use super::board::Share;
 use super::lab::Lab;
-use super::report::{Found, Table};
+use super::table::Table;
 use super::{Cost, Experiment, ExperimentError, LightReport, Subject, SurfaceReport};
 use crate::gpu::Gpu;
 use crate::settings::View;
@@ -87,8 +87,7 @@ pub fn bench(gpu: &Arc<Gpu>, mut subject: Subject, options: BenchOptions) -> Exp
         BenchOptions { light: true, .. } => "light",
         _ => "surfaces",
     };
-    let found = |report: KernelReport| Found::Kernels(Box::new(report));
-    Experiment::begin(gpu, (name, subject), (report, found), async move |mut lab, report| {
+    Experiment::begin(gpu, (name, subject), report, async move |mut lab, report| {
         lab.warmup = options.warmup;
         measure(lab, &report, options).await
     })

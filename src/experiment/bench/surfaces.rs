@@ -10,8 +10,8 @@ use crate::experiment::ExperimentError;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames, Times};
 use crate::experiment::lab::Lab;
-use crate::experiment::report::Table;
 use crate::experiment::surface_work::{self, SurfaceWork};
+use crate::experiment::table::Table;
 use crate::settings::{ConeTracing, Lookup, Sampling, Settings, SurfaceView, View};
 use crate::spread::Spread;
 
