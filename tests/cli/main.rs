@@ -1,5 +1,14 @@
 //! The program as a script sees it: exit codes, standard output, files.
 
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::unreachable,
+    clippy::unwrap_used,
+    reason = "a test fails by panicking"
+)]
+
 mod cache;
 mod corpus;
 mod defects;

@@ -1,5 +1,14 @@
 //! The real window without a display: driven by label on the software GPU, its pixels compared.
 
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::unreachable,
+    clippy::unwrap_used,
+    reason = "a test fails by panicking"
+)]
+
 mod controls;
 mod files;
 mod lights;
