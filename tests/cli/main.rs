@@ -19,6 +19,8 @@ mod lit_surfaces;
 mod models;
 mod node;
 mod pictures;
+#[path = "../suite/real_scenes.rs"]
+mod real_scenes;
 mod reference;
 mod reports;
 mod scenes;

@@ -125,7 +125,7 @@ fn files_below(folder: &str) -> Files {
 #[test]
 fn every_shader_has_its_rust_file_and_every_kernel_a_reference_that_a_test_calls() {
     let programs: Vec<_> = programs().collect();
-    let of = |(source, module, _): &'_ (octolume::gpu::shaders::Source, naga::Module, _)| {
+    let of = |(source, module, _): &'_ (octolume::gpu::Source, naga::Module, _)| {
         let (stage, name) = source.path.trim_end_matches(".wgsl").split_once('/').expect("in a folder");
         let is_kernel = module.entry_points.iter().any(|entry| entry.stage == naga::ShaderStage::Compute);
         (stage.to_owned(), name.to_owned(), is_kernel)
