@@ -1,5 +1,7 @@
 //! Embeds every file of `shaders/`, so that the program is one file and a test sees what runs.
 
+#![allow(clippy::print_stdout, reason = "cargo reads it")]
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};

@@ -1,11 +1,7 @@
 // Second half of an exclusive prefix sum: each thread writes the prefixes of its SCAN_CHUNK values,
 // starting from the prefix of its chunk. The thread of the last chunk appends the total.
 #import shared/threads.wgsl
-#import constants
-
-struct ScanParams {
-    count: u32,
-}
+#import shared/scan.wgsl
 
 @group(0) @binding(0) var<uniform> params: ScanParams;
 @group(0) @binding(1) var<storage, read> values: array<u32>;
@@ -14,9 +10,6 @@ struct ScanParams {
 @group(0) @binding(3) var<storage, read_write> prefixes: array<u32>;
 
 override WORKGROUP_SIZE: u32 = 64u;
-override POPCOUNT: bool = false;
-// Independent sequences, interleaved.
-override CHANNELS: u32 = 1u;
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -33,8 +26,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         }
         for (var i = first; i < end; i += 1u) {
             prefixes[i * CHANNELS + channel] = prefix;
-            let value = values[i * CHANNELS + channel];
-            prefix += select(value, countOneBits(value), POPCOUNT);
+            prefix += value_at(i, channel);
         }
         if end == params.count {
             prefixes[end * CHANNELS + channel] = prefix;

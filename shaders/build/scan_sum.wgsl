@@ -1,20 +1,13 @@
 // First half of an exclusive prefix sum: each thread sums SCAN_CHUNK consecutive values (or the set
 // bits of them) into one. Serial inside a chunk: barriers cost more than they save on few cores.
 #import shared/threads.wgsl
-#import constants
-
-struct ScanParams {
-    count: u32,
-}
+#import shared/scan.wgsl
 
 @group(0) @binding(0) var<uniform> params: ScanParams;
 @group(0) @binding(1) var<storage, read> values: array<u32>;
 @group(0) @binding(2) var<storage, read_write> sums: array<u32>;
 
 override WORKGROUP_SIZE: u32 = 64u;
-override POPCOUNT: bool = false;
-// Independent sequences, interleaved.
-override CHANNELS: u32 = 1u;
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -27,8 +20,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     for (var channel = 0u; channel < CHANNELS; channel += 1u) {
         var sum = 0u;
         for (var i = first; i < end; i += 1u) {
-            let value = values[i * CHANNELS + channel];
-            sum += select(value, countOneBits(value), POPCOUNT);
+            sum += value_at(i, channel);
         }
         sums[thread * CHANNELS + channel] = sum;
     }

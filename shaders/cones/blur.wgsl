@@ -1,6 +1,6 @@
 // Spreads what the pixels of a pattern have traced over all of them, along one axis: a Gaussian that stops at
 // edges of the surfaces (section 4.5). A thread a pixel. Of a constant image nothing changes, to the bit.
-#import shared/threads.wgsl
+#import shared/thread_pixel.wgsl
 #import shared/image.wgsl
 #import shared/edges.wgsl
 
@@ -47,18 +47,16 @@ fn blur(s: Surface, pixel: vec2<i32>, width_cells: f32) -> vec4<f32> {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    let pixel = pixel_of_tile(params.size_px.x, thread / 64u, thread % 64u);
-    if thread >= threads.end || any(pixel >= params.size_px) {
+    let pixel = image_pixel(id, groups, params.size_px);
+    if !pixel.is_there {
         return;
     }
-    let source = source_pixel(pixel, params.size_px);
+    let source = source_pixel(pixel.at, params.size_px);
     let s = surface_at(source);
-    let place = pixel.y * params.size_px.x + pixel.x;
     if !s.is_there {
-        blurred[place] = image[place];
+        blurred[pixel.index] = image[pixel.index];
         return;
     }
     let spacing = f32(view.width_px) / f32(params.size_px.x);
-    blurred[place] = blur(s, vec2<i32>(pixel), plane_width(s, spacing, pixel_ray(source)));
+    blurred[pixel.index] = blur(s, vec2<i32>(pixel.at), plane_width(s, spacing, pixel_ray(source)));
 }

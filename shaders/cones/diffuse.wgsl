@@ -1,7 +1,7 @@
 // What the surfaces of an image receive by diffuse cones: mean radiance over the cosine-weighted hemisphere,
 // and how open it is (section 4.5). A thread a pixel of the diffuse image, which may be smaller than that of
 // the surfaces. A square of `pattern_px`² pixels shares a set of directions; each pixel traces its part.
-#import shared/threads.wgsl
+#import shared/thread_pixel.wgsl
 #import shared/look_up.wgsl
 #import shared/cone.wgsl
 #import shared/cone_set.wgsl
@@ -55,16 +55,15 @@ fn hemisphere(s: Surface, part: u32) -> vec4<f32> {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    let pixel = pixel_of_tile(params.size_px.x, thread / 64u, thread % 64u);
-    if thread >= threads.end || any(pixel >= params.size_px) {
+    let pixel = image_pixel(id, groups, params.size_px);
+    if !pixel.is_there {
         return;
     }
-    let s = surface_at(source_pixel(pixel, params.size_px));
-    let part = pixel.x % params.pattern_px + params.pattern_px * (pixel.y % params.pattern_px);
+    let s = surface_at(source_pixel(pixel.at, params.size_px));
+    let part = pixel.at.x % params.pattern_px + params.pattern_px * (pixel.at.y % params.pattern_px);
     var found = vec4<f32>(0.0, 0.0, 0.0, 1.0);
     if s.is_there {
         found = hemisphere(s, part);
     }
-    diffuse[pixel.y * params.size_px.x + pixel.x] = found;
+    diffuse[pixel.index] = found;
 }

@@ -1,7 +1,7 @@
 // From a small image to one as large as that of the surfaces: between the four pixels around each, weighted
 // by how much their surfaces have in common with it. Where none has anything, the one nearest in depth
 // counts. A thread a pixel. Of a constant image the same constant, to the bit.
-#import shared/threads.wgsl
+#import shared/thread_pixel.wgsl
 #import shared/image.wgsl
 #import shared/edges.wgsl
 
@@ -72,15 +72,14 @@ fn upsample(s: Surface, pixel: vec2<u32>) -> vec4<f32> {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    let pixel = tiled_pixel(thread);
-    if thread >= threads.end || pixel.x >= view.width_px || pixel.y >= view.height_px {
+    let pixel = view_pixel(id, groups);
+    if !pixel.is_there {
         return;
     }
-    let s = surface_at(pixel);
+    let s = surface_at(pixel.at);
     var found = vec4<f32>(0.0, 0.0, 0.0, 1.0);
     if s.is_there {
-        found = upsample(s, pixel);
+        found = upsample(s, pixel.at);
     }
-    large[pixel.y * view.width_px + pixel.x] = found;
+    large[pixel.index] = found;
 }

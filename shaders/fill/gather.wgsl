@@ -4,6 +4,7 @@
 // gather_heavy. (The paper scatters with a moving average, section 4.3; the sums here are order-free.)
 #import shared/threads.wgsl
 #import shared/gather_block.wgsl
+#import shared/leaf_block.wgsl
 
 @group(0) @binding(0) var<uniform> octree: OctreeParams;
 @group(0) @binding(1) var<storage, read> blocks: array<u32>;
@@ -24,7 +25,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     if block >= min(threads.end, octree.leaf_block_count) {
         return;
     }
-    let key = block_keys[octree.levels[octree.depth - 1u].first_block + block];
+    let key = leaf_block_key(block);
     let block_cell = vec3<i32>(morton_cell(key));
     var l0 = empty_leaf(); var l1 = empty_leaf(); var l2 = empty_leaf(); var l3 = empty_leaf();
     var l4 = empty_leaf(); var l5 = empty_leaf(); var l6 = empty_leaf(); var l7 = empty_leaf();

@@ -2,6 +2,7 @@
 // integer sums. A thread a leaf block; blocks whose voxels all are dark leave their leaves as cleared.
 #import shared/threads.wgsl
 #import shared/block_sources.wgsl
+#import shared/leaf_block.wgsl
 #import shared/wide.wgsl
 
 @group(0) @binding(0) var<uniform> octree: OctreeParams;
@@ -60,7 +61,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     if block >= min(threads.end, octree.leaf_block_count) {
         return;
     }
-    let block_cell = vec3<i32>(morton_cell(block_keys[octree.levels[octree.depth - 1u].first_block + block]));
+    let block_cell = vec3<i32>(morton_cell(leaf_block_key(block)));
     // Looked up once for all leaves.
     var ranges: array<vec2<u32>, 8>;
     var emits = false;

@@ -2,6 +2,7 @@
 // sums up to MAX_FRAGMENTS voxels at a time, the workgroup adds up in 64 bits. Same result as gather
 // would give with wider sums, in any order.
 #import shared/gather_block.wgsl
+#import shared/leaf_block.wgsl
 #import shared/wide.wgsl
 
 @group(0) @binding(0) var<uniform> octree: OctreeParams;
@@ -100,7 +101,7 @@ fn main(
     let count = workgroupUniformLoad(&heavy_count);
     for (var i = group.x; i < count; i += groups.x) {
         let block = heavy_blocks[1u + i];
-        let key = block_keys[octree.levels[octree.depth - 1u].first_block + block];
+        let key = leaf_block_key(block);
         for (var word = local; word < 16u * CHANNELS; word += GROUP_THREADS) {
             atomicStore(&totals[word], 0u);
         }

@@ -4,6 +4,7 @@
 #import shared/threads.wgsl
 #import shared/corners_ranked.wgsl
 #import shared/leaf_mask.wgsl
+#import shared/leaf_block.wgsl
 #import shared/cone.wgsl
 #import shared/cone_set.wgsl
 #import shared/packing.wgsl
@@ -69,7 +70,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     if block >= min(threads.end, octree.leaf_block_count) {
         return;
     }
-    let key = block_keys[octree.levels[octree.depth - 1u].first_block + block];
+    let key = leaf_block_key(block);
     var children = leaf_mask(key);
     var slot = block_starts[2u * block + 1u];
     while children != 0u {

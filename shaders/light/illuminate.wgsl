@@ -2,6 +2,7 @@
 // distance, range and spot cone by KHR_lights_punctual. In: the leaves, a light, a shadow map or the
 // octree's masks. A thread a leaf block.
 #import shared/threads.wgsl
+#import shared/leaf_block.wgsl
 #import shared/packing.wgsl
 #import shared/light.wgsl
 #import shared/light_through.wgsl
@@ -65,7 +66,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     if block >= min(threads.end, octree.leaf_block_count) {
         return;
     }
-    let key = block_keys[octree.levels[octree.depth - 1u].first_block + block];
+    let key = leaf_block_key(block);
     let low = 2u * morton_cell(key);
     var mask = leaf_mask(key);
     var slot = block_starts[2u * block + 1u];

@@ -1,6 +1,6 @@
 // One light at what the camera sees: adds BRDF · irradiance · visibility. A kernel declares `view`, the surface
 // image, `light` and `direct`, and says `visibility(s)`.
-#import shared/threads.wgsl
+#import shared/thread_pixel.wgsl
 #import shared/brdf.wgsl
 #import shared/light.wgsl
 
@@ -18,16 +18,12 @@ fn arriving_radiance(s: Surface) -> vec3<f32> {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    let pixel = view_pixel(id, groups);
+    if !pixel.is_there {
         return;
     }
-    let pixel = tiled_pixel(thread);
-    if pixel.x >= view.width_px || pixel.y >= view.height_px {
-        return;
-    }
-    let s = surface_at(pixel);
+    let s = surface_at(pixel.at);
     if s.is_there {
-        direct[pixel.y * view.width_px + pixel.x] += vec4<f32>(arriving_radiance(s), 0.0);
+        direct[pixel.index] += vec4<f32>(arriving_radiance(s), 0.0);
     }
 }

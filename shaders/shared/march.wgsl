@@ -4,6 +4,7 @@
 #import shared/octree.wgsl
 #import shared/empty_space.wgsl
 #import shared/store_pixel.wgsl
+#import shared/thread_pixel.wgsl
 #import shared/view.wgsl
 
 // All of a ray, at the shown level.
@@ -37,12 +38,7 @@ fn march(pixel: PixelRay) -> Blend {
     return light;
 }
 
-// The pixel of a thread.
-fn show(thread: u32) {
-    let pixel = tiled_pixel(thread);
-    if pixel.x >= view.width_px || pixel.y >= view.height_px {
-        return;
-    }
+fn show(pixel: vec2<u32>) {
     let light = march(pixel_ray(pixel));
     let color = light.color + light.through * view.background;
     store_pixel(pixel, color, light.depth_cells);

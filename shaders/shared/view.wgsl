@@ -42,12 +42,8 @@ struct PixelRay {
     widening: f32,
 }
 
-// Pixels in tiles of 8 x 8, a tile in Morton order: neighbours in a workgroup see similar voxels.
-fn tiled_pixel(thread: u32) -> vec2<u32> {
-    return pixel_of_tile(view.width_px, thread / 64u, thread % 64u);
-}
-
-// Pixel i of a tile of a picture; the last tiles reach beyond it.
+// Pixel i of a tile of 8 x 8 of a picture, in Morton order: neighbours in a workgroup see similar voxels. The last
+// tiles reach beyond the picture.
 fn pixel_of_tile(width_px: u32, tile: u32, i: u32) -> vec2<u32> {
     let tiles_x = (width_px + 7u) / 8u;
     let x = (i & 1u) | ((i >> 1u) & 2u) | ((i >> 2u) & 4u);

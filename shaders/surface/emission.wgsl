@@ -1,6 +1,6 @@
 // Begins the sum of a pixel's light: what the surface emits, and whether there is one. In: the surface image.
 // A thread a pixel.
-#import shared/threads.wgsl
+#import shared/thread_pixel.wgsl
 #import shared/surface.wgsl
 
 @group(0) @binding(0) var<uniform> view: ViewParams;
@@ -13,14 +13,10 @@ override WORKGROUP_SIZE: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    let pixel = view_pixel(id, groups);
+    if !pixel.is_there {
         return;
     }
-    let pixel = tiled_pixel(thread);
-    if pixel.x >= view.width_px || pixel.y >= view.height_px {
-        return;
-    }
-    let s = surface_at(pixel);
-    direct[pixel.y * view.width_px + pixel.x] = select(vec4<f32>(0.0), vec4<f32>(s.emission, 1.0), s.is_there);
+    let s = surface_at(pixel.at);
+    direct[pixel.index] = select(vec4<f32>(0.0), vec4<f32>(s.emission, 1.0), s.is_there);
 }

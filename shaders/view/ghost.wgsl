@@ -1,6 +1,5 @@
 // Two sets of leaves in one picture: cells of both, of the exact set alone (holes) and of the moved
 // set alone (spill), each in its colour and alpha. In: both sets' masks, a view. Out: as march.
-#import shared/threads.wgsl
 #import shared/march.wgsl
 
 struct GhostColors {
@@ -52,8 +51,8 @@ fn seen(key: u32, ray: Ray, walk: Walk) -> vec4<f32> {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    if thread < threads.end {
-        show(thread);
+    let pixel = view_pixel(id, groups);
+    if pixel.is_there {
+        show(pixel.at);
     }
 }

@@ -1,7 +1,6 @@
 // Shows the octree (Fig. 8): a ray a pixel blends the voxels it crosses, front to back, occupancy as
 // alpha, at the leaves or any level above them. In: the octree, a view. Out: the picture,
 // gamma-encoded, and the distance to where half of the light is stopped.
-#import shared/threads.wgsl
 #import shared/occupied_nodes.wgsl
 #import shared/leaf_slot.wgsl
 #import shared/march.wgsl
@@ -85,8 +84,8 @@ fn seen(key: u32, ray: Ray, walk: Walk) -> vec4<f32> {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    if thread < threads.end {
-        show(thread);
+    let pixel = view_pixel(id, groups);
+    if pixel.is_there {
+        show(pixel.at);
     }
 }

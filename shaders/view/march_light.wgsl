@@ -1,7 +1,6 @@
 // Shows the light that the octree holds, radiance or irradiance: as `march`, coloured by a node's mean
 // light times the exposure, which is set, or shows the mean of all light as MEAN_SHOWN_AS. In: the octree's
 // masks, `light`, a view.
-#import shared/threads.wgsl
 #import shared/occupied_nodes.wgsl
 #import shared/leaf_slot.wgsl
 #import shared/march.wgsl
@@ -57,9 +56,9 @@ fn seen(key: u32, ray: Ray, walk: Walk) -> vec4<f32> {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    if thread < threads.end {
+    let pixel = view_pixel(id, groups);
+    if pixel.is_there {
         factor = exposure_factor();
-        show(thread);
+        show(pixel.at);
     }
 }

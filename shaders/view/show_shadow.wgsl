@@ -1,9 +1,8 @@
 // Shows a shadow map: distances from the light in the colours of a scale, its layers side by side (three
 // a row), as large as the picture allows. Texels that nothing hides are background.
-#import shared/threads.wgsl
+#import shared/thread_pixel.wgsl
 #import shared/palette.wgsl
 #import shared/store_pixel.wgsl
-#import shared/view.wgsl
 
 struct ShowShadowParams {
     // Distances of the scale's ends, cells.
@@ -39,19 +38,15 @@ fn distance_at(pixel: vec2<u32>) -> f32 {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    let pixel = view_pixel(id, groups);
+    if !pixel.is_there {
         return;
     }
-    let pixel = tiled_pixel(thread);
-    if pixel.x >= view.width_px || pixel.y >= view.height_px {
-        return;
-    }
-    let distance = distance_at(pixel);
+    let distance = distance_at(pixel.at);
     var color = view.background;
     if distance < NEVER {
         let share = (distance - params.least) / max(params.most - params.least, 1e-6);
         color = palette_value(share);
     }
-    store_pixel(pixel, color, NEVER);
+    store_pixel(pixel.at, color, NEVER);
 }

@@ -1,5 +1,5 @@
 // The picture of what was composed: light by exposure and tone curve, depth by a scale, all else as it is.
-#import shared/threads.wgsl
+#import shared/thread_pixel.wgsl
 #import shared/palette.wgsl
 #import shared/picture_exposure.wgsl
 #import shared/store_pixel.wgsl
@@ -47,12 +47,12 @@ fn color_of(value: vec3<f32>) -> vec3<f32> {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let pixel = tiled_pixel(thread_index(id, groups));
-    if pixel.x >= view.width_px || pixel.y >= view.height_px {
+    let pixel = view_pixel(id, groups);
+    if !pixel.is_there {
         return;
     }
-    let value = shown[pixel.y * view.width_px + pixel.x];
-    let distance = bitcast<f32>(textureLoad(surface_near, pixel, 0).x);
+    let value = shown[pixel.index];
+    let distance = bitcast<f32>(textureLoad(surface_near, pixel.at, 0).x);
     let is_there = value.a > 0.0 || (SHOWS == SHOWS_LIGHT && params.sky != 0u);
-    store_pixel(pixel, select(view.background, color_of(value.rgb), is_there), distance);
+    store_pixel(pixel.at, select(view.background, color_of(value.rgb), is_there), distance);
 }

@@ -1,12 +1,11 @@
 // Shows a plane through the grid: what the octree holds there, sampled (section 4.4), in the colours of a
 // scale. Values are mean light, or occupancy; where nothing is, there is no mean light, and the plane is
 // background. In: the lit octree, a view, a plane. Out: the picture, and the distance to the plane.
-#import shared/threads.wgsl
+#import shared/thread_pixel.wgsl
 #import shared/look_up.wgsl
 #import shared/mean_light.wgsl
 #import shared/palette.wgsl
 #import shared/store_pixel.wgsl
-#import shared/view.wgsl
 
 struct SliceParams {
     // The plane lies across this axis, at this height.
@@ -101,14 +100,10 @@ fn shown(ray: PixelRay) -> Shown {
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let thread = thread_index(id, groups);
-    if thread >= threads.end {
+    let pixel = view_pixel(id, groups);
+    if !pixel.is_there {
         return;
     }
-    let pixel = tiled_pixel(thread);
-    if pixel.x >= view.width_px || pixel.y >= view.height_px {
-        return;
-    }
-    let it = shown(pixel_ray(pixel));
-    store_pixel(pixel, it.color, it.depth_cells);
+    let it = shown(pixel_ray(pixel.at));
+    store_pixel(pixel.at, it.color, it.depth_cells);
 }

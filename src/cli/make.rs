@@ -21,7 +21,8 @@ pub struct Make {
 
 impl Make {
     pub fn run(&self) -> anyhow::Result<()> {
-        let bytes = builtin::make(&self.name).ok_or_else(|| Usage(format!("no built-in scene \"{}\"", self.name)))?;
+        let made = builtin::make(&self.name).ok_or_else(|| Usage(format!("no built-in scene \"{}\"", self.name)))?;
+        let bytes = made.with_context(|| self.name.clone())?;
         std::fs::write(&self.output, bytes).with_context(|| self.output.display().to_string())
     }
 }

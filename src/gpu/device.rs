@@ -1,5 +1,6 @@
 //! Opening a device, and noticing when it fails.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
@@ -64,6 +65,7 @@ impl Gpu {
             queue,
             shaders,
             default_workgroup_size: None,
+            replaced: BTreeMap::new(),
             kernels: Mutex::default(),
             raster_kernels: Mutex::default(),
             registry: Arc::default(),
@@ -99,6 +101,27 @@ impl Gpu {
     pub fn with_workgroup_size(mut self, threads: u32) -> Self {
         self.default_workgroup_size = Some(threads);
         self
+    }
+
+    /// Another on the same device, where `wgsl` stands for the compute kernel `shaders/PATH`: for trying a change.
+    /// Buffers and textures of each serve both.
+    pub fn with_shader(&self, path: &str, wgsl: &str) -> Self {
+        Self {
+            device: self.device.clone(),
+            queue: self.queue.clone(),
+            info: self.info.clone(),
+            limits: self.limits.clone(),
+            shaders: self.shaders,
+            default_workgroup_size: self.default_workgroup_size,
+            replaced: BTreeMap::from([(path.to_owned(), wgsl.to_owned())]),
+            kernels: Mutex::default(),
+            raster_kernels: Mutex::default(),
+            registry: Arc::default(),
+            serial: AtomicU64::default(),
+            counters: Mutex::default(),
+            scratch: Mutex::default(),
+            health: Arc::clone(&self.health),
+        }
     }
 
     /// What a person should know about this adapter, a sentence each.

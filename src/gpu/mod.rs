@@ -68,6 +68,8 @@ pub struct Gpu {
     pub limits: wgpu::Limits,
     shaders: &'static Shaders,
     default_workgroup_size: Option<u32>,
+    /// Texts that stand for files of `shaders/`.
+    replaced: BTreeMap<String, String>,
     kernels: Mutex<HashMap<KernelKey, Arc<Kernel>>>,
     raster_kernels: Mutex<HashMap<(&'static str, &'static str), Arc<RasterKernel>>>,
     registry: memory::Registry,
@@ -97,9 +99,13 @@ impl Gpu {
         let mut kernels = lock(&self.kernels);
         let kernel = kernels.entry((path.to_owned(), overrides)).or_insert_with(|| {
             let name = path.trim_end_matches(".wgsl");
-            Arc::new(Kernel::compile(self, self.shaders.embedded(path), name, constants))
+            Arc::new(Kernel::compile(self, self.source(path), name, constants))
         });
         Arc::clone(kernel)
+    }
+
+    fn source(&self, path: &str) -> Result<Source, GpuError> {
+        self.replaced.get(path).map_or_else(|| self.shaders.embedded(path), |wgsl| self.shaders.inline(path, wgsl))
     }
 
     /// A kernel from text, which may import files of `shaders/`. Not cached.

@@ -5,7 +5,7 @@
 //! and which error codes the official validator gives them.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use assert_cmd::Command;
@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::defects;
+use crate::real_scenes::real_scenes;
 
 /// What a file may take.
 const TIME_LIMIT: Duration = Duration::from_secs(10);
@@ -32,12 +33,6 @@ struct Outcome {
     errors: String,
     /// Of the JSON on standard output, where the file opened.
     warnings: Vec<String>,
-}
-
-/// The folder of real scenes, where there is one; the test passes without it.
-pub fn shared_gltf() -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    ["../shared/gltf", "../../shared/gltf"].map(|path| root.join(path)).into_iter().find(|path| path.is_dir())
 }
 
 fn rows(folder: &Path) -> Vec<Row> {
@@ -108,7 +103,7 @@ fn printed(warnings: &[String], errors: &str) -> Result<(), String> {
 
 #[test]
 fn no_broken_file_hurts() {
-    let Some(folder) = shared_gltf() else { return };
+    let Some(folder) = real_scenes() else { return };
     let rows = rows(&folder);
     assert!(rows.len() > 200, "{} rows", rows.len());
     let judged: Vec<(String, Option<String>)> = rows

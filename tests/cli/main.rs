@@ -1,5 +1,14 @@
 //! The program as a script sees it: exit codes, standard output, files.
 
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::unreachable,
+    clippy::unwrap_used,
+    reason = "a test fails by panicking"
+)]
+
 mod cache;
 mod corpus;
 mod defects;
@@ -10,6 +19,8 @@ mod lit_surfaces;
 mod models;
 mod node;
 mod pictures;
+#[path = "../suite/real_scenes.rs"]
+mod real_scenes;
 mod reference;
 mod reports;
 mod scenes;

@@ -7,8 +7,8 @@ use std::fs;
 use rayon::prelude::*;
 use serde_json::Value;
 
-use crate::corpus::shared_gltf;
 use crate::json;
+use crate::real_scenes::real_scenes;
 
 /// What is compared.
 type Counts = BTreeMap<&'static str, u64>;
@@ -52,7 +52,7 @@ fn counted(info: &Value) -> Counts {
 
 #[test]
 fn models_hold_what_their_list_says() {
-    let Some(folder) = shared_gltf() else { return };
+    let Some(folder) = real_scenes() else { return };
     let listed = listed(&fs::read_to_string(folder.join("README.md")).expect("a list"));
     assert_eq!(listed.len(), 66);
     for (explained, ..) in EXPLAINED {

@@ -38,7 +38,7 @@ pub fn white_plane(folder: &Path) -> PathBuf {
 
 /// Writes the scene below `folder`; `None` where there is no Knight.
 pub fn knight_in_a_room(folder: &Path) -> Option<PathBuf> {
-    let knight = std::fs::read(crate::corpus::shared_gltf()?.join("KayKit-Knight/Knight.glb")).ok()?;
+    let knight = std::fs::read(crate::real_scenes::real_scenes()?.join("KayKit-Knight/Knight.glb")).ok()?;
     let (json, binary) = chunks(&knight);
     let mut document: Value = serde_json::from_slice(json).expect("JSON");
     std::fs::write(folder.join("Knight.bin"), binary).expect("writable");

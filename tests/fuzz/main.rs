@@ -5,6 +5,15 @@
 //! few thousand inputs; `OCTOLUME_FUZZ_SECONDS=1800 cargo test --test fuzz` tries for that long.
 //! A finding is written to the target folder, and stays as a case of `amplifiers`.
 
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::unreachable,
+    clippy::unwrap_used,
+    reason = "a test fails by panicking"
+)]
+
 mod amplifiers;
 #[allow(dead_code, reason = "the other tests use the rest")]
 #[path = "../suite/document.rs"]

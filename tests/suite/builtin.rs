@@ -37,7 +37,7 @@ fn names_are_known_and_others_are_not() {
 #[test]
 fn committed_files_are_what_the_generator_makes() {
     for name in builtin::NAMES {
-        let (made, committed) = (builtin::make(name).unwrap(), builtin::bytes(name).unwrap());
+        let (made, committed) = (builtin::make(name).unwrap().unwrap(), builtin::bytes(name).unwrap());
         let difference = made.iter().zip(committed).position(|(a, b)| a != b);
         assert!(
             made == committed,

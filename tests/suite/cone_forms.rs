@@ -30,6 +30,9 @@ const DEPTH: u32 = 6;
 const CELLS: i64 = 64;
 /// Lowest layer of the floor, which is one voxel thick.
 const FLOOR: i64 = 9;
+/// How near the known error of a form is met: half of the last place it is written with, LEAST_LIGHT that cones
+/// leave, and roundings of 256 places on a ray, 2^-24 of 64 cells each, where opacity changes by 3 a cell.
+const FORM_SLACK: f64 = 0.0005 + LEAST_LIGHT + 3.0 * 256.0 * 64.0 * f32::EPSILON as f64 / 2.0;
 const BOTH: DiffuseTerms = DiffuseTerms { radiance: true, occlusion: true };
 
 const COMMAND: &str = "cargo test --test suite cone_forms";
@@ -145,10 +148,13 @@ fn a_wall_hides_half_of_one_minus_the_cosine_of_its_height() {
     println!("share of the sky that a wall of two voxels hides; infinite: ½(1 − cos φ), φ = atan(h / d)");
     println!("aperture  opacity      distance  infinite  this wall  cones: 64 x 16, 16 x 16, 4 x 16, 1 x 16, 4");
     let mut rows = Vec::new();
-    for (degrees, opacity, slack) in
-        [(4.0, Opacity::Isotropic, 0.02), (30.0, Opacity::Isotropic, 0.3), (30.0, Opacity::Directional, 0.25)]
-    {
-        for distance in [4.0, 8.0, 16.0, 32.0] {
+    // A wide cone that goes up along the wall blends it with the air beside it, and stops: by so much it errs.
+    for (degrees, opacity, errors) in [
+        (4.0, Opacity::Isotropic, [0.014, 0.004, -0.003, -0.011]),
+        (30.0, Opacity::Isotropic, [0.274, 0.216, 0.148, 0.052]),
+        (30.0, Opacity::Directional, [0.211, 0.127, 0.091, 0.082]),
+    ] {
+        for (distance, error) in [4.0, 8.0, 16.0, 32.0].into_iter().zip(errors) {
             let point = DVec3::new(WALL as f64 - distance, 32.0, FLOOR as f64 + 0.5);
             let expected = form_factor(point, DVec3::Z, &wall_corners(WALL as f64));
             let infinite = 0.5 * (1.0 - ((CELLS as f64 - point.z) / distance).atan().cos());
@@ -172,9 +178,10 @@ fn a_wall_hides_half_of_one_minus_the_cosine_of_its_height() {
             });
             let opacity = format!("{opacity:?}");
             println!("{degrees:7}°  {opacity:11}  {distance:8}  {infinite:8.3}  {expected:9.3}  {hidden:.3?}");
-            // A wide cone that goes up along the wall blends it with the air beside it, and stops.
-            assert!((hidden[0] - expected).abs() < slack, "{degrees}°, {distance}: {hidden:?}, not {expected}");
-            // Of many cones, 256 are within 0.01, 64 within 0.02, 16 within 0.08.
+            let off = (hidden[0] - expected - error).abs();
+            assert!(off < FORM_SLACK, "{degrees}°, {distance}: {hidden:?}, not {expected} and {error}");
+            // Directions of equal weight: about as many as along the wall's edge, √n of n, may fall on the wrong
+            // side of it. These are 0.16 to 0.32 of 1 / √n.
             for (fewer, off) in [(1, 0.01), (2, 0.02), (3, 0.08)] {
                 assert!((hidden[fewer] - hidden[0]).abs() < off, "{degrees}°, {distance}: {hidden:?}");
             }
@@ -188,7 +195,8 @@ fn the_sky_through_a_hole_is_its_form_factor() {
     const CEILING: i64 = 34;
     println!("sky through a square hole 25 voxels above a floor: its side, closed form, cones of 30° and of 4°");
     let mut rows = Vec::new();
-    for side in [12_i64, 24, 40] {
+    // Narrow cones lose what lies beside the rim, which blends with the hole; wide ones stop at it or see past it.
+    for (side, errors) in [(12_i64, [0.035, 0.026]), (24, [-0.079, 0.028]), (40, [-0.187, 0.028])] {
         let (low, high) = (32 - side / 2, 32 + side / 2);
         let is_hole = |q: [i64; 3]| q.iter().take(2).all(|c| (low * ONE..high * ONE).contains(c));
         let ceiling = solid([0, 0, CEILING], [CELLS, CELLS, CEILING + 2], 0).filter(|voxel| !is_hole(voxel.q));
@@ -204,8 +212,9 @@ fn the_sky_through_a_hole_is_its_form_factor() {
             [30.0, 4.0].map(|degrees| seen(&octree, Opacity::Isotropic, &tracing(16, degrees), (point, DVec3::Z))[0]);
         rows.push(HoleRow { side_voxels: side, closed: expected, narrow: open[1], wide: open[0] });
         println!("{side:3}   {expected:.3}   {:.3} {:.3}", open[0], open[1]);
-        assert!((open[1] - expected).abs() < 0.035, "{side}: {open:?}, not {expected}");
-        assert!((open[0] - expected).abs() < 0.2, "{side}: {open:?}, not {expected}");
+        for (open, error) in open.into_iter().zip(errors) {
+            assert!((open - expected - error).abs() < FORM_SLACK, "{side}: {open}, not {expected} and {error}");
+        }
     }
     measured::keep("holes.json", COMMAND, rows);
 }
@@ -253,7 +262,7 @@ fn a_mirror_shows_the_lit_wall_and_the_sky_above_it() {
         [(12.0, 0.0, 7.0), (12.0, 0.2, 7.0), (20.0, 0.1, 7.0), (46.0, 0.0, 1.0), (52.0, 0.15, 1.0)]
     {
         let photo = mirror(point, DVec3::new(WALL as f64 - point.x, 0.0, height).normalize(), roughness);
-        let found = mean(&reflected(&octree.sampled(Lookup::Ranks), &photo, &ConeTracing::default(), [1.0; 3]));
+        let found = mean(&reflected(gpu(), &octree.sampled(Lookup::Ranks), &photo, &ConeTracing::default(), [1.0; 3]));
         assert!((found[0] - expected).abs() < 0.02 * expected && found[3] == 1.0, "{height}, {roughness}: {found:?}");
     }
 }

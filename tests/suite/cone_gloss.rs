@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use octolume::data::surface_image::SurfaceTexel;
-use octolume::gpu::{Job, Recorder};
+use octolume::gpu::{Gpu, Job, Recorder};
 use octolume::settings::{ConeTracing, Lookup};
 use octolume::stages::cones::glossy_tiles::{self, GlossyParams, TileBuffers};
 use octolume::stages::cones::glossy_tiles_ref::glossy_tiles;
@@ -17,6 +17,7 @@ use crate::cone_light::{DEPTH, SIZE_PX, SKY, random_octree, scattered, tolerance
 use crate::cone_rig::{NOTHING, Photo, dull, ray, source};
 use crate::device::gpu;
 use crate::random;
+use crate::stage_checks::{Check, holds, same};
 use crate::stage_rig::{buffer, read, run};
 use crate::view_rig::{camera, grid};
 
@@ -34,15 +35,21 @@ fn listed(photo: &Photo, size_px: [u32; 2], most_roughness: f64) -> (TileBuffers
 }
 
 /// The specular image of a photo.
-pub fn reflected(octree: &SampledOctree, photo: &Photo, settings: &ConeTracing, sky: [f32; 3]) -> Vec<[f32; 4]> {
+pub fn reflected(
+    gpu: &Gpu,
+    octree: &SampledOctree,
+    photo: &Photo,
+    settings: &ConeTracing,
+    sky: [f32; 3],
+) -> Vec<[f32; 4]> {
     let size_px = photo.size_px();
-    let image = buffer(gpu(), "specular", image_bytes(size_px) / 4);
+    let image = buffer(gpu, "specular", image_bytes(size_px) / 4);
     let (_, list, tiles) = listed(photo, size_px, settings.glossy_roughness);
     let input = ConesInput { octree, surfaces: photo.surfaces() };
     let params = SpecularParams::new(settings, sky, size_px);
     let tiles = (&list, tiles[0]);
-    run(gpu(), |frame| specular::record(gpu(), frame, &input, (&Sampler::default(), &params), tiles, &image));
-    read(gpu(), &image, image_bytes(size_px) / 16)
+    run(gpu, |frame| specular::record(gpu, frame, &input, (&Sampler::default(), &params), tiles, &image));
+    read(gpu, &image, image_bytes(size_px) / 16)
 }
 
 fn is_glossy(texel: Option<&SurfaceTexel>, most_roughness: f64) -> bool {
@@ -78,39 +85,49 @@ fn tiles_are_listed_in_order_where_a_pixel_is_glossy() {
     }
 }
 
-#[test]
-fn specular_cones_match_the_reference() {
+/// Specular cones against the reference.
+pub fn check_specular(gpu: &Gpu) -> Check {
     let (photo, octree) = (scattered(), random_octree(41, 1500));
     let settings = ConeTracing { glossy_roughness: 0.5, ..ConeTracing::default() };
-    let found = reflected(&octree.sampled(Lookup::Ranks), &photo, &settings, SKY);
-    let cones = Cones { start_cells: settings.start_voxels, ..Cones::default() };
+    let found = reflected(gpu, &octree.sampled(Lookup::Ranks), &photo, &settings, SKY);
+    let cones = Cones {
+        start_cells: settings.start_voxels,
+        step_diameters: settings.step_diameters,
+        reach_cells: f64::INFINITY,
+        ..Cones::default()
+    };
     let lit = octree.lit(Sampler::default().opacity);
     let mut compared = 0;
     for (i, found) in found.iter().enumerate() {
         let pixel = [i as u32 % SIZE_PX[0], i as u32 / SIZE_PX[0]];
         let (Some(texel), Some(point)) = (photo.texel(pixel), photo.point(pixel)) else {
-            assert_eq!(*found, [0.0; 4]);
+            same("a pixel without a cone", found, &[0.0; 4])?;
             continue;
         };
         if !is_glossy(Some(texel), 0.5) {
-            assert_eq!(*found, [0.0; 4]);
+            same("a pixel without a cone", found, &[0.0; 4])?;
             continue;
         }
         let surface = (&point, ray(&photo.rays, pixel).direction, texel.roughness);
         let sky = Vec3::from_array(SKY).as_dvec3();
         let expected = specular_ref::specular(&lit, (&cones, Sampler::default().sampling), sky, surface);
         let off = (Vec3::from_slice(found).as_dvec3() - expected).abs().max_element();
-        assert!(off < tolerance() && found[3] == 1.0, "{pixel:?}: {found:?}, not {expected}");
+        holds(off < tolerance() && found[3] == 1.0, || format!("{pixel:?}: {found:?}, not {expected}"))?;
         compared += 1;
     }
-    assert!(compared > 200, "{compared}");
+    holds(compared > 200, || format!("{compared} pixels"))
+}
+
+#[test]
+fn specular_cones_match_the_reference() {
+    assert_eq!(check_specular(gpu()), Ok(()));
 }
 
 #[test]
 fn cones_end_at_the_listed_tiles_and_at_the_room_for_them() {
     let (photo, octree) = (scattered(), random_octree(41, 1500));
     let settings = ConeTracing { glossy_roughness: 0.5, ..ConeTracing::default() };
-    let exact = reflected(&octree.sampled(Lookup::Ranks), &photo, &settings, SKY);
+    let exact = reflected(gpu(), &octree.sampled(Lookup::Ranks), &photo, &settings, SKY);
     let (_, list, tiles) = listed(&photo, photo.size_px(), settings.glossy_roughness);
     let params = SpecularParams::new(&settings, SKY, photo.size_px());
     let sampled = octree.sampled(Lookup::Ranks);

@@ -2,10 +2,12 @@
 
 use glam::{DVec3, Vec3};
 use octolume::data::surface_image::SurfaceTexel;
+use octolume::gpu::Gpu;
 use octolume::settings::lighting::Opacity;
 use octolume::settings::{ConeTracing, Filter, Lookup, Sampling};
 use octolume::stages::cones::diffuse::{DiffuseCones, DiffuseTerms};
 use octolume::stages::cones::diffuse_ref;
+use octolume::stages::light::gather::Cones;
 use octolume::stages::sample::Sampler;
 use octolume::stages::view::LEAST_LIGHT;
 
@@ -15,6 +17,7 @@ use crate::lit_octree::LitBuild;
 use crate::octree_rules::Cell;
 use crate::random;
 use crate::stage_build::Shape;
+use crate::stage_checks::{Check, holds, same};
 use crate::view_rig::{camera, grid};
 
 pub const DEPTH: u32 = 5;
@@ -54,47 +57,90 @@ pub fn tolerance() -> f64 {
     2.0 * (LEAST_LIGHT + 3.0 * 5.0 * 4.0 * 32.0 * 64.0 * 2.0_f64.powi(-24))
 }
 
-#[test]
-fn diffuse_cones_match_the_reference_in_every_mode() {
-    let photo = scattered();
-    let [narrow, paper, wide] = [2.0, 30.0, 90.0];
+/// What settings say of cones, by the words of the settings alone: lengths in cells of 0.25 scene units.
+fn as_set(settings: &ConeTracing) -> DiffuseCones {
+    let cones = Cones {
+        count: settings.cones,
+        aperture_degrees: settings.cone_degrees,
+        start_cells: settings.start_voxels,
+        step_diameters: settings.step_diameters,
+        reach_cells: f64::INFINITY,
+    };
+    let occlusion_cells = settings.occlusion_distance.expect("set") / 0.25;
+    DiffuseCones { cones, pattern_px: settings.pattern_px, occlusion_cells }
+}
+
+/// How diffuse cones are traced.
+#[derive(Clone, Copy, Debug)]
+pub struct Mode {
+    pub pattern_px: u32,
+    pub cone_degrees: f64,
+    pub sampler: Sampler,
+    pub terms: DiffuseTerms,
+    pub size_px: [u32; 2],
+}
+
+pub const BOTH: DiffuseTerms = DiffuseTerms { radiance: true, occlusion: true };
+
+fn modes() -> [Mode; 5] {
     let quadrilinear = Sampler::default();
     let by = |sampling| Sampler { sampling, ..Sampler::default() };
     let directional = Sampler { opacity: Opacity::Directional, ..quadrilinear };
-    let (both, light) = ([true, true], [true, false]);
-    for (pattern_px, degrees, sampler, [radiance, occlusion], size_px) in [
-        (1, narrow, quadrilinear, both, SIZE_PX),
-        (2, paper, directional, light, [19, 11]),
-        (4, paper, by(Sampling::Trilinear), both, [19, 11]),
-        (4, wide, quadrilinear, [false, true], SIZE_PX),
-        (2, wide, by(Sampling::Nearest), light, [12, 7]),
-    ] {
-        let octree = random_octree(21 + u64::from(pattern_px), 1500);
-        let settings = ConeTracing { cones: 3, pattern_px, cone_degrees: degrees, ..ConeTracing::default() };
-        let cones = DiffuseCones::new(&settings, 1 << DEPTH, 0.25);
-        let terms = DiffuseTerms { radiance, occlusion };
-        let sampled = octree.sampled(Lookup::Ranks);
-        let found = diffuse(gpu(), (&sampled, &sampler), &photo, (&cones, terms), (SKY, size_px));
-        let lit = octree.lit(sampler.opacity);
-        let mut compared = 0;
-        for (i, found) in found.iter().enumerate() {
-            let pixel = [i as u32 % size_px[0], i as u32 / size_px[0]];
-            let Some(point) = photo.point(source(&photo, pixel, size_px)) else {
-                assert_eq!(*found, [0.0, 0.0, 0.0, 1.0]);
-                continue;
-            };
-            let sky = Vec3::from_array(SKY).as_dvec3();
-            let rules = (&cones, sampler.sampling, terms);
-            let (radiance, open) = diffuse_ref::diffuse(&lit, rules, sky, &point, pixel);
-            let off = (Vec3::from_slice(found).as_dvec3() - radiance).abs().max_element();
-            // Nodes begin where others end: a place beside a border is in either.
-            let may_jump = sampler.sampling == Sampling::Nearest && off < 0.5;
-            let limit = tolerance();
-            assert!(off < limit || may_jump, "{pixel:?} {settings:?} {sampler:?}: {found:?}, not {radiance} {open}");
-            assert!((f64::from(found[3]) - open).abs() < limit || may_jump, "{pixel:?}: {found:?}, not {open}");
-            compared += 1;
-        }
-        assert!(compared * 2 > found.len());
+    let [light, occlusion] = [true, false].map(|radiance| DiffuseTerms { radiance, occlusion: !radiance });
+    let mode =
+        |pattern_px, cone_degrees, sampler, terms, size_px| Mode { pattern_px, cone_degrees, sampler, terms, size_px };
+    [
+        mode(1, 2.0, quadrilinear, BOTH, SIZE_PX),
+        mode(2, 30.0, directional, light, [19, 11]),
+        mode(4, 30.0, by(Sampling::Trilinear), BOTH, [19, 11]),
+        mode(4, 90.0, quadrilinear, occlusion, SIZE_PX),
+        mode(2, 90.0, by(Sampling::Nearest), light, [12, 7]),
+    ]
+}
+
+/// Diffuse cones against the reference.
+pub fn check_diffuse(gpu: &Gpu, mode: &Mode) -> Check {
+    let photo = scattered();
+    let Mode { pattern_px, cone_degrees, sampler, terms, size_px } = *mode;
+    let octree = random_octree(21 + u64::from(pattern_px), 1500);
+    let settings = ConeTracing { cones: 3, pattern_px, cone_degrees, ..occluded() };
+    let cones = DiffuseCones::new(&settings, 1 << DEPTH, 0.25);
+    let expected_cones = as_set(&settings);
+    let sampled = octree.sampled(Lookup::Ranks);
+    let found = diffuse(gpu, (&sampled, &sampler), &photo, (&cones, terms), (SKY, size_px));
+    let lit = octree.lit(sampler.opacity);
+    let mut compared = 0;
+    for (i, found) in found.iter().enumerate() {
+        let pixel = [i as u32 % size_px[0], i as u32 / size_px[0]];
+        let Some(point) = photo.point(source(&photo, pixel, size_px)) else {
+            same("background", found, &[0.0, 0.0, 0.0, 1.0])?;
+            continue;
+        };
+        let sky = Vec3::from_array(SKY).as_dvec3();
+        let rules = (&expected_cones, sampler.sampling, terms);
+        let (radiance, open) = diffuse_ref::diffuse(&lit, rules, sky, &point, pixel);
+        let off = (Vec3::from_slice(found).as_dvec3() - radiance).abs().max_element();
+        // Nodes begin where others end: a place beside a border is in either.
+        let may_jump = sampler.sampling == Sampling::Nearest && off < 0.5;
+        let limit = tolerance();
+        let off = off.max((f64::from(found[3]) - open).abs());
+        holds(off < limit || may_jump, || {
+            format!("{pixel:?} {settings:?} {sampler:?}: {found:?}, not {radiance} {open}")
+        })?;
+        compared += 1;
+    }
+    holds(compared * 2 > found.len(), || format!("{compared} pixels"))
+}
+
+/// Things within 7.5 cells occlude.
+fn occluded() -> ConeTracing {
+    ConeTracing { occlusion_distance: Some(1.875), ..ConeTracing::default() }
+}
+
+#[test]
+fn diffuse_cones_match_the_reference_in_every_mode() {
+    for mode in modes() {
+        assert_eq!(check_diffuse(gpu(), &mode), Ok(()), "{mode:?}");
     }
 }
 

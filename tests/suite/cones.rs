@@ -1,7 +1,10 @@
 //! Cones through the lit octree: against the f64 reference and closed forms.
 
+use std::f64::consts::PI;
+
 use glam::{DVec3, Vec3};
 use octolume::data::packing::unpack_normal;
+use octolume::gpu::Gpu;
 use octolume::settings::Filter;
 use octolume::settings::lighting::Opacity;
 use octolume::stages::fill::gather_ref::Fragment;
@@ -15,6 +18,7 @@ use crate::lit_octree::LitBuild;
 use crate::octree_rules::{self as rules, Cell};
 use crate::random::{self, ONE};
 use crate::stage_build::Shape;
+use crate::stage_checks::{Check, holds};
 use crate::stage_rig::{read, run, upload};
 
 const DEPTH: u32 = 5;
@@ -22,16 +26,16 @@ const ISOTROPIC: Opacity = Opacity::Isotropic;
 const DIRECTIONAL: Opacity = Opacity::Directional;
 
 /// Irradiance of every leaf by its cell.
-pub fn gathered(octree: &LitBuild, what: Gathered, cones: &Cones, opacity: Opacity) -> Vec<(Cell, DVec3)> {
+pub fn gathered(gpu: &Gpu, octree: &LitBuild, what: Gathered, cones: &Cones, opacity: Opacity) -> Vec<(Cell, DVec3)> {
     let count = u64::from(octree.built.params.leaf_count);
     // What lies there before: bounces replace it, the sky adds to it.
-    let irradiance = upload(gpu(), "irradiance", &vec![[1.0_f32; 3]; count as usize]);
+    let irradiance = upload(gpu, "irradiance", &vec![[1.0_f32; 3]; count as usize]);
     let params = ConeParams::new(cones, [1.0, 2.0, 0.5]);
-    run(gpu(), |frame| {
+    run(gpu, |frame| {
         let light = (&octree.light, opacity);
-        gather::record(gpu(), frame, &octree.read_by_cones(), light, (what, &params), &irradiance);
+        gather::record(gpu, frame, &octree.read_by_cones(), light, (what, &params), &irradiance);
     });
-    let values: Vec<[f32; 3]> = read(gpu(), &irradiance, count);
+    let values: Vec<[f32; 3]> = read(gpu, &irradiance, count);
     let of = |(cell, slot): (Cell, usize)| (cell, Vec3::from_array(values[slot]).as_dvec3());
     rules::leaf_slots(&octree.built).map(of).collect()
 }
@@ -53,35 +57,43 @@ fn full_grid(alpha: f64) -> LitBuild {
     LitBuild::new(gpu(), &voxels, &Shape::new(4, 2, Filter::Nearest), |_, _| (DVec3::ONE, alpha))
 }
 
+/// Sky or bounces of a random scene of so many voxels against the reference, by 7 cones.
+pub fn check_random_scene(
+    gpu: &Gpu,
+    (seed, count): (u64, usize),
+    (aperture, step_diameters, opacity): (f64, f64, Opacity),
+    what: Gathered,
+) -> Check {
+    let light = |cell: Cell, a: f64| (DVec3::from_array(cell.map(|c| f64::from(c % 5) * 0.25)), a);
+    let shape = Shape::new(DEPTH, 2, Filter::Split);
+    let octree = LitBuild::new(crate::device::gpu(), &random::scene(seed, count, DEPTH), &shape, light);
+    let cones = Cones { step_diameters, ..cones(7, aperture) };
+    let lit = octree.lit(opacity);
+    let normals = rules::leaf_slots(&octree.built).map(|(_, slot)| octree.built.leaves[slot][2]);
+    let all = gathered(gpu, &octree, what, &cones, opacity);
+    for ((cell, found), normal) in all.into_iter().zip(normals).step_by(31) {
+        let center = DVec3::from_array(cell.map(f64::from)) + 0.5;
+        let Seen { radiance, through } = gather_ref::gather(&lit, &cones, center, unpack_normal(normal));
+        let expected = match what {
+            Gathered::Sky => DVec3::ONE + DVec3::new(1.0, 2.0, 0.5) * through * PI,
+            Gathered::Bounce => radiance * PI,
+        };
+        // Cones end early with LEAST_LIGHT to go. A place is off by the roundings of a sum of steps,
+        // 2^-24 of 64 cells a step; α changes by at most 3 a cell and stands in a power of up to 64.
+        let tolerance = PI * 2.0 * (LEAST_LIGHT + 3.0 * 64.0 * 64.0 * 64.0 * 2.0_f64.powi(-24));
+        let off = (found - expected).abs().max_element();
+        holds(off < tolerance, || format!("{cell:?} {cones:?} {what:?}: {found}, not {expected}"))?;
+    }
+    Ok(())
+}
+
 #[test]
 fn random_scenes_match_the_reference() {
-    let light = |cell: Cell, a: f64| (DVec3::from_array(cell.map(|c| f64::from(c % 5) * 0.25)), a);
-    for (seed, count) in [(1, 60), (2, 2000)] {
-        let octree =
-            LitBuild::new(gpu(), &random::scene(seed, count, DEPTH), &Shape::new(DEPTH, 2, Filter::Split), light);
-        for (aperture, step_diameters, opacity) in
-            [(0.0, 1.0, ISOTROPIC), (30.0, 0.5, DIRECTIONAL), (60.0, 1.0, ISOTROPIC), (179.0, 0.25, DIRECTIONAL)]
+    for scene in [(1, 60), (2, 2000)] {
+        for by in [(0.0, 1.0, ISOTROPIC), (30.0, 0.5, DIRECTIONAL), (60.0, 1.0, ISOTROPIC), (179.0, 0.25, DIRECTIONAL)]
         {
-            let cones = Cones { step_diameters, ..cones(7, aperture) };
-            let lit = octree.lit(opacity);
-            let (sky, bounce) = (
-                gathered(&octree, Gathered::Sky, &cones, opacity),
-                gathered(&octree, Gathered::Bounce, &cones, opacity),
-            );
-            let normals = rules::leaf_slots(&octree.built).map(|(_, slot)| octree.built.leaves[slot][2]);
-            for (((cell, sky), (_, bounce)), normal) in sky.into_iter().zip(bounce).zip(normals).step_by(31) {
-                let center = DVec3::from_array(cell.map(f64::from)) + 0.5;
-                let Seen { radiance, through } = gather_ref::gather(&lit, &cones, center, unpack_normal(normal));
-                let expected = DVec3::ONE + DVec3::new(1.0, 2.0, 0.5) * through * std::f64::consts::PI;
-                // Cones end early with LEAST_LIGHT to go. A place is off by the roundings of a sum of steps,
-                // 2^-24 of 64 cells a step; α changes by at most 3 a cell and stands in a power of up to 64.
-                let tolerance =
-                    std::f64::consts::PI * 2.0 * (LEAST_LIGHT + 3.0 * 64.0 * 64.0 * 64.0 * 2.0_f64.powi(-24));
-                let off = (sky - expected)
-                    .abs()
-                    .max_element()
-                    .max((bounce - radiance * std::f64::consts::PI).abs().max_element());
-                assert!(off < tolerance, "{cell:?} {cones:?}: {sky} and {bounce}, not {expected} and {radiance} · π");
+            for what in [Gathered::Sky, Gathered::Bounce] {
+                assert_eq!(check_random_scene(gpu(), scene, by, what), Ok(()));
             }
         }
     }
@@ -97,15 +109,14 @@ fn a_homogeneous_medium_lets_through_what_the_closed_form_says() {
                 let cones = Cones { step_diameters, reach_cells: 3.4, start_cells: 0.0, ..cones(6, aperture) };
                 for opacity in [ISOTROPIC, DIRECTIONAL] {
                     for (what, arrives) in [(Gathered::Sky, 1.0), (Gathered::Bounce, 0.0)] {
-                        let all = gathered(&octree, what, &cones, opacity);
+                        let all = gathered(gpu(), &octree, what, &cones, opacity);
                         let middle = all.iter().find(|(cell, _)| *cell == [8; 3]).expect("a full grid");
                         let through = (1.0 - alpha).powf(3.4);
-                        let expected =
-                            std::f64::consts::PI * if arrives == 1.0 { through } else { 1.0 - through } + arrives;
+                        let expected = PI * if arrives == 1.0 { through } else { 1.0 - through } + arrives;
                         // About 15 steps of a few roundings; α of directional nodes up to 8 wide, see sampling.rs.
                         let across = 3.0 * 2.0_f64.powi(-24) * (1.0 - alpha).powf(1.0 - 8.0) / 8.0 * 3.4;
-                        let tolerance = std::f64::consts::PI
-                            * (15.0 * 8.0 * 2.0_f64.powi(-24) + if opacity == DIRECTIONAL { across } else { 0.0 });
+                        let tolerance =
+                            PI * (15.0 * 8.0 * 2.0_f64.powi(-24) + if opacity == DIRECTIONAL { across } else { 0.0 });
                         assert!(
                             (middle.1.x - expected).abs() < tolerance,
                             "α {alpha}, {cones:?}, {what:?}: {middle:?}, not {expected}"
@@ -127,7 +138,7 @@ fn the_aperture_is_the_full_apex_angle() {
     let widest = Cones { start_cells: 0.0, reach_cells: 1.0, ..cones(3, 180.0) };
     let params = ConeParams::new(&widest, [0.0; 3]);
     assert!(params.shape.widening.is_finite() && params.shape.widening > 1e9);
-    assert!(gathered(&octree, Gathered::Sky, &widest, ISOTROPIC).iter().all(|(_, e)| e.is_finite()));
+    assert!(gathered(gpu(), &octree, Gathered::Sky, &widest, ISOTROPIC).iter().all(|(_, e)| e.is_finite()));
 }
 
 #[test]
@@ -135,30 +146,37 @@ fn an_empty_hemisphere_sees_the_whole_sky_and_a_closed_one_nothing() {
     // A slab with its face up, at the top of which nothing hides the sky from narrow cones.
     let slab: Vec<_> = solid([0, 0, 0], [32, 32, 6], [511, 511, 1022]).collect();
     let octree = LitBuild::new(gpu(), &slab, &Shape::new(DEPTH, 3, Filter::Nearest), |_, a| (DVec3::ZERO, a));
-    for (cell, irradiance) in gathered(&octree, Gathered::Sky, &cones(16, 0.0), ISOTROPIC) {
+    for (cell, irradiance) in gathered(gpu(), &octree, Gathered::Sky, &cones(16, 0.0), ISOTROPIC) {
         // Beside the border a cone leaves before its first step is over.
         if cell.iter().take(2).any(|c| !(2..30).contains(c)) {
             continue;
         }
         let expected = match cell[2] {
-            5 => std::f64::consts::PI,
+            5 => PI,
             // Its apex lies on the slab's face, where half is stopped.
             4 => continue,
             _ => 0.0,
         };
-        let tolerance = std::f64::consts::PI * (LEAST_LIGHT + 1e-6);
+        let tolerance = PI * (LEAST_LIGHT + 1e-6);
         assert!((irradiance.x - 1.0 - expected).abs() < tolerance, "{cell:?}: {irradiance}");
     }
 }
 
-#[test]
-fn leaves_without_a_normal_look_both_ways() {
+/// Cloth, whose normals cancel, under an open sky.
+pub fn check_cloth(gpu: &Gpu) -> Check {
     // One layer: half of what it sees is the sky above, half below.
     let cloth: Vec<_> = solid([0, 0, 16], [32, 32, 17], [511; 3]).collect();
-    let octree = LitBuild::new(gpu(), &cloth, &Shape::new(DEPTH, 3, Filter::Nearest), |_, a| (DVec3::ZERO, a));
-    for (cell, irradiance) in gathered(&octree, Gathered::Sky, &cones(16, 0.0), ISOTROPIC) {
-        assert!((irradiance.x - 1.0 - std::f64::consts::PI).abs() < 1e-5, "{cell:?}: {irradiance}");
+    let octree =
+        LitBuild::new(crate::device::gpu(), &cloth, &Shape::new(DEPTH, 3, Filter::Nearest), |_, a| (DVec3::ZERO, a));
+    for (cell, irradiance) in gathered(gpu, &octree, Gathered::Sky, &cones(16, 0.0), ISOTROPIC) {
+        holds((irradiance.x - 1.0 - PI).abs() < 1e-5, || format!("{cell:?}: {irradiance}"))?;
     }
+    Ok(())
+}
+
+#[test]
+fn leaves_without_a_normal_look_both_ways() {
+    assert_eq!(check_cloth(gpu()), Ok(()));
 }
 
 #[test]

@@ -13,6 +13,7 @@ use octolume::settings::VoxelizationMode;
 use octolume::settings::{Discretization, Filter, VoxelAnchor};
 use tempfile::TempDir;
 
+use crate::real_scenes::real_scenes;
 use crate::scenes::cube_scene;
 
 /// A cache in a folder that goes away with the test.
@@ -190,7 +191,7 @@ fn threads_share_a_folder() {
 
 #[test]
 fn the_second_opening_of_sponza_voxelizes_nothing() {
-    let Some(path) = shared_scene("Sponza/Sponza_objects.gltf") else { return };
+    let Some(path) = real_scenes().map(|folder| folder.join("Sponza/Sponza_objects.gltf")) else { return };
     let open = || Arc::new(load::open(&path, &Progress::default()).unwrap_or_else(|error| panic!("{error}")));
     let (folder, scene) = (Folder::new(), open());
     let first = through(&folder.disk, &scene, &SMALL);
@@ -199,11 +200,4 @@ fn the_second_opening_of_sponza_voxelizes_nothing() {
     assert!(count > 300, "{count}");
     assert_eq!(second.origins, CacheOrigins { read: count, ..CacheOrigins::default() });
     assert_same_voxels(&second, &first);
-}
-
-/// A scene of the collection beside the project, where there is one.
-fn shared_scene(name: &str) -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let paths = ["../shared/gltf", "../../shared/gltf"].map(|folder| root.join(folder).join(name));
-    paths.into_iter().find(|path| path.is_file())
 }

@@ -82,7 +82,7 @@ fn furnace(
         LitBuild::new(gpu(), &room(thickness), &Shape::new(DEPTH, 3, Filter::Nearest), |_, a| (DVec3::ONE, a));
     let mut radiance = BTreeMap::new();
     for _ in 0..bounces {
-        let arriving = gathered(&octree, Gathered::Bounce, &cones, opacity);
+        let arriving = gathered(gpu(), &octree, Gathered::Bounce, &cones, opacity);
         radiance = arriving.into_iter().map(|(cell, e)| (cell, 1.0 + albedo * e.x / PI)).collect();
         octree.relight(gpu(), |cell, a| (DVec3::splat(radiance[&cell]), a));
     }

@@ -119,7 +119,7 @@ fn the_files_the_cases_start_from_are_legal() {
 
 #[test]
 fn every_code_of_the_corpus_has_a_case() {
-    let Some(folder) = crate::loading::shared_gltf() else { return };
+    let Some(folder) = crate::real_scenes::real_scenes() else { return };
     let table = std::fs::read_to_string(folder.join("EXPECTED.tsv")).expect("EXPECTED.tsv");
     let ours: std::collections::BTreeSet<&str> = all_cases().iter().map(|case| case.code).collect();
     let codes = table.lines().skip(1).flat_map(|line| line.split('\t').nth(4).unwrap_or_default().split(", "));

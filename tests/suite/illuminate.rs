@@ -4,11 +4,13 @@
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use glam::{DVec3, IVec3};
+use octolume::gpu::Gpu;
 use octolume::lights::PosedLight;
 use octolume::scene::LightKind;
 use octolume::settings::Filter;
 use octolume::settings::lighting::Shadows;
 use octolume::stages::fill::gather_ref::Fragment;
+use octolume::stages::light::LEAST_DISTANCE_CELLS;
 use octolume::stages::light::illuminate_ref::{self, Light, Source};
 use octolume::stages::view::SHORT_NORMAL;
 
@@ -16,6 +18,7 @@ use crate::device::gpu;
 use crate::light_rig::{LightRig, full, light, point, sun};
 use crate::random;
 use crate::stage_build::Shape;
+use crate::stage_checks::{Check, holds};
 
 fn source(light: &PosedLight) -> Source {
     match light.kind {
@@ -47,31 +50,37 @@ fn quantised(mean: DVec3) -> DVec3 {
     if (mean.length_squared() - 1.0).abs() < 0.0034 { mean.normalize() } else { mean }
 }
 
-#[test]
-fn every_kind_of_light_is_as_its_reference_says() {
+/// Every kind of light, unhidden, against the reference.
+pub fn check_unhidden(gpu: &Gpu) -> Check {
     for filter in [Filter::Nearest, Filter::Split] {
-        let rig = LightRig::new(gpu(), &random::scene(5, 600, 5), &Shape::new(5, 3, filter));
+        let rig = LightRig::new(crate::device::gpu(), &random::scene(5, 600, 5), &Shape::new(5, 3, filter));
         for lit in lights() {
-            let found = rig.irradiance(gpu(), std::slice::from_ref(&lit), Shadows::Off, 1.5);
+            let found = rig.irradiance(gpu, std::slice::from_ref(&lit), Shadows::Off, 1.5);
             let reference = Light { source: source(&lit), strength: lit.strength };
             for (slot, (centre, mean)) in rig.leaves().into_iter().enumerate() {
                 let expected = illuminate_ref::irradiance(&reference, centre, quantised(mean), 1.0);
                 let (_, distance) = illuminate_ref::towards(reference.source, centre);
                 let most = lit.strength.max_element() / if distance.is_finite() { distance.powi(2) } else { 1.0 };
                 let off = (DVec3::from_array(found[slot].map(f64::from)) - expected).abs().max_element();
-                assert!(off <= TOLERANCE * most, "{lit:?} at {centre}: {:?} is not {expected}", found[slot]);
+                holds(off <= TOLERANCE * most, || format!("{lit:?} at {centre}: {:?} is not {expected}", found[slot]))?;
             }
         }
     }
+    Ok(())
 }
 
 #[test]
-fn marched_visibility_is_what_the_leaves_on_the_way_let_through() {
-    let rig = LightRig::new(gpu(), &random::scene(8, 500, 5), &Shape::new(5, 3, Filter::Split));
+fn every_kind_of_light_is_as_its_reference_says() {
+    assert_eq!(check_unhidden(gpu()), Ok(()));
+}
+
+/// Every kind of light, hidden by leaves, against the reference.
+pub fn check_marched(gpu: &Gpu) -> Check {
+    let rig = LightRig::new(crate::device::gpu(), &random::scene(8, 500, 5), &Shape::new(5, 3, Filter::Split));
     let alpha = |cell: IVec3| rig.occupancy(cell.to_array().map(|c| c as u32));
     for lit in lights() {
-        let found = rig.irradiance(gpu(), std::slice::from_ref(&lit), Shadows::March, 1.5);
-        let open = rig.irradiance(gpu(), std::slice::from_ref(&lit), Shadows::Off, 1.5);
+        let found = rig.irradiance(gpu, std::slice::from_ref(&lit), Shadows::March, 1.5);
+        let open = rig.irradiance(gpu, std::slice::from_ref(&lit), Shadows::Off, 1.5);
         let mut hidden = 0;
         for (slot, (centre, mean)) in rig.leaves().into_iter().enumerate() {
             let (to_light, _) = illuminate_ref::towards(source(&lit), centre);
@@ -87,10 +96,53 @@ fn marched_visibility_is_what_the_leaves_on_the_way_let_through() {
             let through = illuminate_ref::transmittance(start, direction, length, 32, alpha);
             let (found, open) = (f64::from(found[slot][0]), f64::from(open[slot][0]));
             // Rays that f32 cannot tell from a grazing one differ by a cell's corner at most.
-            assert!((found - open * through).abs() <= 2e-3 * open.max(1e-6), "{centre}: {found}, {open} x {through}");
+            holds((found - open * through).abs() <= 2e-3 * open.max(1e-6), || {
+                format!("{centre}: {found}, {open} x {through}")
+            })?;
             hidden += usize::from(through < 0.5);
         }
-        assert!(hidden > 10);
+        holds(hidden > 10, || format!("{hidden} leaves are hidden"))?;
+    }
+    Ok(())
+}
+
+#[test]
+fn marched_visibility_is_what_the_leaves_on_the_way_let_through() {
+    assert_eq!(check_marched(gpu()), Ok(()));
+}
+
+#[test]
+fn lengths_of_the_scene_are_lengths_whatever_a_cell_spans() {
+    let grid = crate::view_rig::grid(5);
+    let rig = LightRig::new(gpu(), &random::scene(5, 600, 5), &Shape::new(5, 3, Filter::Split));
+    let world = |cells: DVec3| grid.corner() + cells * grid.span;
+    let scaled = |range: Option<f32>| range.map(|range| range * grid.span as f32);
+    for lit in lights() {
+        let kind = match lit.kind {
+            LightKind::Directional => LightKind::Directional,
+            LightKind::Point { range } => LightKind::Point { range: scaled(range) },
+            LightKind::Spot { range, inner_cone_radians, outer_cone_radians } => {
+                LightKind::Spot { range: scaled(range), inner_cone_radians, outer_cone_radians }
+            }
+        };
+        let lit = PosedLight { kind, position: world(lit.position), ..lit };
+        let found = rig.irradiance_in(gpu(), &grid, std::slice::from_ref(&lit), Shadows::Off, 1.5);
+        let reference = Light { source: source(&lit), strength: lit.strength };
+        let mut compared = 0;
+        for (slot, (centre, mean)) in rig.leaves().into_iter().enumerate() {
+            // Lux and candela over the square of metres: the reference counts in any unit, but nearer than its least
+            // distance.
+            let (_, distance) = illuminate_ref::towards(reference.source, world(centre));
+            if distance <= LEAST_DISTANCE_CELLS {
+                continue;
+            }
+            let expected = illuminate_ref::irradiance(&reference, world(centre), quantised(mean), 1.0);
+            let most = lit.strength.max_element() / if distance.is_finite() { distance.powi(2) } else { 1.0 };
+            let off = (DVec3::from_array(found[slot].map(f64::from)) - expected).abs().max_element();
+            assert!(off <= TOLERANCE * most, "{lit:?} at {centre}: {:?} is not {expected}", found[slot]);
+            compared += 1;
+        }
+        assert!(compared > 500, "{compared}");
     }
 }
 

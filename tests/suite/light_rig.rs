@@ -28,6 +28,9 @@ pub struct LightRig {
     pub slots: BTreeMap<Cell, usize>,
 }
 
+/// Unit in which leaves hold what they emit; a power of two, so that values stay exact.
+const EMISSION_NITS: f32 = 0.25;
+
 /// Scene units are cells.
 pub fn grid(depth: u32) -> Grid {
     Grid { anchor: DVec3::ZERO, offset_cells: IVec3::ZERO, span: 1.0, depth }
@@ -65,27 +68,40 @@ impl LightRig {
 
     /// Irradiance of every leaf, by slot. Under [`Shadows::Map`] nothing is drawn, so nothing hides.
     pub fn irradiance(&self, gpu: &Gpu, lights: &[PosedLight], shadows: Shadows, offset_cells: f64) -> Vec<[f32; 3]> {
+        self.irradiance_in(gpu, &grid(self.built.params.depth), lights, shadows, offset_cells)
+    }
+
+    /// The same where the octree lies elsewhere in the scene.
+    pub fn irradiance_in(
+        &self,
+        gpu: &Gpu,
+        grid: &Grid,
+        lights: &[PosedLight],
+        shadows: Shadows,
+        offset_cells: f64,
+    ) -> Vec<[f32; 3]> {
         let map = ShadowMap::new(gpu, ShadowParams::default()).expect("small");
         let irradiance = buffer(gpu, "irradiance", 3 * u64::from(self.built.params.leaf_count));
         run(gpu, |frame| {
             frame.clear(&irradiance);
             for light in lights {
-                let params = LightParams::new(light, &grid(self.built.params.depth), offset_cells);
+                let params = LightParams::new(light, grid, offset_cells);
                 illuminate::record(gpu, frame, &self.octree, &irradiance, &params, (shadows, &map));
             }
         });
         read(gpu, &irradiance, self.built.params.leaf_count.into())
     }
 
-    /// The whole store, from irradiance and emission of the leaves by slot.
+    /// The whole store, from irradiance (lux) and emission (nits) of the leaves by slot.
     pub fn stored(&self, gpu: &Gpu, direct: &[[f32; 3]], emission: &[[f32; 3]], opacity: Opacity) -> Vec<[f32; 4]> {
         let bytes = light_bytes(&self.built.params, opacity.is_directional());
         let light = buffer(gpu, "light", bytes / 4);
         gpu.write(&light, 0, &vec![0xff; bytes as usize]).expect("fits");
         let direct = upload(gpu, "direct", direct);
-        let emission = (!emission.is_empty()).then(|| upload(gpu, "emission", emission));
+        let units: Vec<_> = emission.iter().map(|nits| nits.map(|part| part / EMISSION_NITS)).collect();
+        let emission = (!units.is_empty()).then(|| upload(gpu, "emission", &units));
         run(gpu, |frame| {
-            let emission = emission.as_ref().map(|emission| (emission, 1.0));
+            let emission = emission.as_ref().map(|emission| (emission, EMISSION_NITS));
             let from = Injected { direct: &direct, gathered: None, emission };
             inject::record(gpu, frame, &self.octree, from, &light);
             average_light::record(gpu, frame, &self.octree, opacity, &light);

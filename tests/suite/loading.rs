@@ -1,6 +1,6 @@
 //! Opening files: real scenes where they are at hand, small documents written here.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::DVec3;
 use octolume::{
@@ -10,12 +10,7 @@ use octolume::{
 use serde_json::json;
 
 use crate::document::Document;
-
-/// The folder of real scenes, where there is one; tests pass without it.
-pub fn shared_gltf() -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    ["../shared/gltf", "../../shared/gltf"].map(|path| root.join(path)).into_iter().find(|path| path.is_dir())
-}
+use crate::real_scenes::real_scenes;
 
 fn open(path: &Path) -> Result<Scene, LoadError> {
     scene::load::open(path, &Progress::default())
@@ -33,7 +28,7 @@ fn counts(scene: &Scene) -> [usize; 5] {
 
 #[test]
 fn real_scenes_hold_what_their_list_says() {
-    let Some(folder) = shared_gltf() else { return };
+    let Some(folder) = real_scenes() else { return };
     let expected = [
         ("Fox/Fox.glb", [576, 1, 1, 24, 3]),
         ("CesiumMan/CesiumMan.glb", [4_672, 1, 1, 19, 1]),
@@ -59,7 +54,7 @@ fn real_scenes_hold_what_their_list_says() {
 /// Every file opens, or is refused with a sentence that names it.
 #[test]
 fn no_file_panics() {
-    let Some(folder) = shared_gltf() else { return };
+    let Some(folder) = real_scenes() else { return };
     let mut folders = vec![folder];
     let mut opened = 0;
     while let Some(folder) = folders.pop() {

@@ -1,5 +1,14 @@
 //! The tests of the core: one module an area, one binary so that it links once.
 
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::unreachable,
+    clippy::unwrap_used,
+    reason = "a test fails by panicking"
+)]
+
 /// Vectors and matrices, entry by entry.
 macro_rules! assert_near {
     ($value:expr, $expected:expr, $tolerance:expr $(,)?) => {
@@ -15,6 +24,7 @@ mod brdf;
 mod builtin;
 mod camera;
 mod character_motion;
+mod compare;
 mod compose;
 mod cone_filter;
 mod cone_forms;
@@ -79,6 +89,8 @@ mod plan_surfaces;
 mod prepared;
 mod random;
 mod rays;
+mod real_scenes;
+mod references;
 mod residency;
 mod sampling;
 mod scan;

@@ -8,6 +8,7 @@ use octolume::data::grid::morton_key;
 use octolume::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, OctreeParams, OctreeSizes, mask_words};
 use octolume::data::packing::{NORMAL_MAX, unpack_normal};
 use octolume::gpu::Gpu;
+use octolume::stages::fill::ranked::RankedLeaves;
 use octolume::stages::view::march::MarchedOctree;
 
 /// An occupied leaf as stored.
@@ -85,11 +86,13 @@ impl PlainOctree {
         let objects: Vec<u32> = self.leaves.values().map(|leaf| 0xffff - u32::from(leaf.object)).collect();
         MarchedOctree {
             sizes: OctreeSizes::upload(gpu, params).expect("small"),
-            leaf_bits: upload("leaf bits", &mask(params.depth, &self.occupied(params.depth))),
+            ranked: RankedLeaves {
+                leaf_bits: upload("leaf bits", &mask(params.depth, &self.occupied(params.depth))),
+                ranks: upload("ranks", &exclusive_sums(&blocks)),
+                blocks: upload("blocks", &blocks),
+                block_starts: upload("block starts", &self.block_starts()),
+            },
             occupied: upload("occupied", &occupied),
-            ranks: upload("ranks", &exclusive_sums(&blocks)),
-            blocks: upload("blocks", &blocks),
-            block_starts: upload("block starts", &self.block_starts()),
             leaves: upload("leaves", &self.leaf_words()),
             nodes: upload("nodes", bytemuck::cast_slice(&self.nodes())),
             leaf_objects: Some(upload("leaf objects", &objects)),

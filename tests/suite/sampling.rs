@@ -1,6 +1,7 @@
 //! Sampling the lit octree: against the f64 reference and closed forms; every look-up gives the same bits.
 
 use glam::{DVec3, Vec3};
+use octolume::gpu::Gpu;
 use octolume::settings::lighting::Opacity;
 use octolume::settings::{Filter, Lookup, Sampling};
 use octolume::stages::fill::gather_ref::Fragment;
@@ -15,6 +16,7 @@ use crate::octree::aligned;
 use crate::octree_rules::Cell;
 use crate::random;
 use crate::stage_build::Shape;
+use crate::stage_checks::{Check, holds};
 
 const DEPTH: u32 = 5;
 const CELLS: f32 = 32.0;
@@ -93,30 +95,33 @@ fn across_slack(alpha: f64) -> f64 {
     3.0 * 2.0_f64.powi(-24) * (1.0 - alpha).powf(1.0 - w) / w
 }
 
-fn assert_matches(octree: &LitBuild, sampler: &Sampler, points: &[[f32; 4]]) {
+fn check_matches(gpu: &Gpu, octree: &LitBuild, sampler: &Sampler, points: &[[f32; 4]]) -> Check {
     let lit = octree.lit(sampler.opacity);
     let largest = 0.3 * 16.0;
     let mut seen = 0;
-    for (point, found) in points.iter().zip(octree.sample(gpu(), sampler, direction(), points)) {
+    for (point, found) in points.iter().zip(octree.sample(gpu, sampler, direction(), points)) {
         let expected = reference(&lit, sampler.sampling, direction().as_vec3().as_dvec3(), point);
         let off = (Vec3::from_slice(&found).as_dvec3() - expected.radiance).abs().max_element();
         let alpha_off = (f64::from(found[3]) - expected.alpha).abs();
         let limit = tolerance(largest, sampler.opacity);
-        assert!(off.max(alpha_off) < limit, "{sampler:?} {point:?}: {found:?} is not {expected:?}");
+        holds(off.max(alpha_off) < limit, || format!("{sampler:?} {point:?}: {found:?} is not {expected:?}"))?;
         seen += usize::from(expected.alpha > 0.0);
     }
-    assert!(seen * 4 > points.len(), "{seen} of {} points see anything", points.len());
+    holds(seen * 4 > points.len(), || format!("{seen} of {} points see anything", points.len()))
+}
+
+/// A sampler by ranks against the reference, on a random scene.
+pub fn check_sampler(gpu: &Gpu, dense_level: u32, (sampling, opacity): (Sampling, Opacity)) -> Check {
+    let octree = random_octree(50 + u64::from(dense_level), 2500, dense_level);
+    let sampler = Sampler { sampling, opacity, ..Sampler::default() };
+    check_matches(gpu, &octree, &sampler, &points(60, 3000, sampling))
 }
 
 #[test]
 fn every_sampler_matches_the_reference_at_every_dense_level() {
     for dense_level in 0..DEPTH {
-        let octree = random_octree(50 + u64::from(dense_level), 2500, dense_level);
-        for sampling in SAMPLINGS {
-            let points = points(60, 3000, sampling);
-            for opacity in OPACITIES {
-                assert_matches(&octree, &Sampler { sampling, opacity, ..Sampler::default() }, &points);
-            }
+        for sampler in SAMPLINGS.into_iter().flat_map(|sampling| OPACITIES.map(|opacity| (sampling, opacity))) {
+            assert_eq!(check_sampler(gpu(), dense_level, sampler), Ok(()), "dense level {dense_level}");
         }
     }
 }

@@ -1,8 +1,7 @@
-//! What can be said of shaders without a GPU: they are valid, they have their Rust twins, and
-//! both languages agree on every struct and constant.
+//! What can be said of shaders without a GPU: they are valid, and both languages agree on every struct and
+//! constant.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 use octolume::gpu::{Mirror, Source, parse};
 use octolume::stages::{MIRRORS, SHADERS};
@@ -12,7 +11,7 @@ use wgpu::naga;
 const MAX_STORAGE_BUFFERS: usize = 8;
 
 /// Every shader that runs by itself, put together as at run time.
-fn programs() -> impl Iterator<Item = (Source, naga::Module, naga::valid::ModuleInfo)> {
+pub fn programs() -> impl Iterator<Item = (Source, naga::Module, naga::valid::ModuleInfo)> {
     SHADERS.files.iter().filter(|(path, _)| !path.starts_with("shared/")).map(|(path, _)| {
         let source = SHADERS.embedded(path).unwrap_or_else(|error| panic!("{error}"));
         let (module, info) = parse(&source).unwrap_or_else(|error| panic!("{error}"));
@@ -43,27 +42,6 @@ fn no_entry_point_uses_more_storage_buffers_than_every_adapter_has() {
             assert!(count <= MAX_STORAGE_BUFFERS, "{} {}: {count} storage buffers", source.path, entry.name);
         }
     }
-}
-
-#[test]
-fn every_shader_has_its_rust_file_and_every_kernel_its_reference() {
-    let stages = rust_stems(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/stages"));
-    for (source, module, _) in programs() {
-        let stem = Path::new(&source.path).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let is_kernel = module.entry_points.iter().any(|entry| entry.stage == naga::ShaderStage::Compute);
-        let needed = [stem.clone(), format!("{stem}_ref")];
-        for file in &needed[..if is_kernel { 2 } else { 1 }] {
-            assert!(stages.contains(file), "{}: no {file}.rs in src/stages", source.path);
-        }
-    }
-}
-
-fn rust_stems(folder: &Path) -> BTreeSet<String> {
-    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let paths: Vec<PathBuf> = entries.map(|entry| entry.expect("readable").path()).collect();
-    let (folders, files): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| path.is_dir());
-    let stems = files.iter().filter_map(|file| Some(file.file_stem()?.to_string_lossy().into_owned()));
-    stems.chain(folders.iter().flat_map(|folder| rust_stems(folder))).collect()
 }
 
 /// A `struct` of some program: defining file, name, size and fields with offsets.

@@ -20,6 +20,10 @@ use crate::stage_rig::fragment;
 
 pub type Check = Result<(), String>;
 
+pub fn holds(is_so: bool, else_wise: impl FnOnce() -> String) -> Check {
+    if is_so { Ok(()) } else { Err(else_wise()) }
+}
+
 pub fn same<T: PartialEq + std::fmt::Debug>(what: &str, found: &T, expected: &T) -> Check {
     if found == expected {
         return Ok(());

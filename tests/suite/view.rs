@@ -167,8 +167,8 @@ fn ghost_matches_the_reference() {
     let look = Look { shaded: true, ..look(ColorBy::Albedo, AlphaRule::Paper) };
     let view = ViewParams::new(&rays, &look, depth);
     let set = |plain: &PlainOctree| {
-        let MarchedOctree { leaf_bits, occupied, .. } = plain.upload(gpu);
-        LeafSet { leaf_bits, occupied }
+        let MarchedOctree { ranked, occupied, .. } = plain.upload(gpu);
+        LeafSet { leaf_bits: ranked.leaf_bits, occupied }
     };
     let picture = Picture::new(gpu, SIZE_PX).expect("fits");
     let mut recorder = Recorder::default();

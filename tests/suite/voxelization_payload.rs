@@ -200,7 +200,7 @@ fn broken_references_are_refused() {
 
 #[test]
 fn files_keep_their_promises() {
-    let Some(folder) = crate::loading::shared_gltf() else { return };
+    let Some(folder) = crate::real_scenes::real_scenes() else { return };
     for name in ["CesiumMan/CesiumMan.glb", "Fox/Fox.glb", "RobotExpressive/robot.glb"] {
         let scene = octolume::scene::load::open(&folder.join(name), &Progress::default()).unwrap();
         let pose = scene.pose(None, 0.0);

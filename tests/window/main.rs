@@ -1,5 +1,14 @@
 //! The real window without a display: driven by label on the software GPU, its pixels compared.
 
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::unreachable,
+    clippy::unwrap_used,
+    reason = "a test fails by panicking"
+)]
+
 mod controls;
 mod files;
 mod lights;
@@ -7,6 +16,8 @@ mod measure;
 mod node;
 mod opening;
 mod playing;
+#[path = "../suite/real_scenes.rs"]
+mod real_scenes;
 mod reference;
 mod rig;
 mod surfaces;
@@ -21,7 +32,8 @@ use octolume::export::read_settings;
 use octolume::settings::{Filter, View};
 
 use files::Dropped;
-use rig::{Window, assert_changed, difference, new_device, shared_models, wgpu_setup};
+use real_scenes::real_scenes;
+use rig::{Window, assert_changed, difference, new_device, wgpu_setup};
 
 #[test]
 fn the_camera_orbits_pans_zooms_and_frames_everything_again() {
@@ -132,7 +144,7 @@ fn input_to_paint_is_measured() {
 
 #[test]
 fn real_files_open_by_drop() {
-    let Some(folder) = shared_models() else { return };
+    let Some(folder) = real_scenes() else { return };
     let mut window = Window::open("courtyard");
     let courtyard = window.view();
     window.0.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(folder.join("Fox/Fox.glb"))));

@@ -8,7 +8,8 @@ use octolume::export::read_settings;
 use serde_json::{Value, json};
 
 use crate::files::{Dropped, write};
-use crate::rig::{Window, assert_changed, difference, shared_models};
+use crate::real_scenes::real_scenes;
+use crate::rig::{Window, assert_changed, difference};
 
 impl Window {
     fn drop_file(&mut self, file: PathBuf) {
@@ -57,7 +58,7 @@ fn cancelling_a_voxelization_keeps_the_voxels_that_are_there() {
 
 #[test]
 fn cancelling_a_large_file_keeps_the_scene_before() {
-    let Some(models) = shared_models() else { return };
+    let Some(models) = real_scenes() else { return };
     let mut window = Window::open("courtyard");
     let before = window.view();
     window.drop_file(models.join("Sponza/Sponza.gltf"));

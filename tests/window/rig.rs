@@ -1,6 +1,6 @@
 //! The window in a harness: controls by label, pixels of the view.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
@@ -29,12 +29,6 @@ pub fn new_device() -> egui_wgpu::WgpuSetup {
     let opened = adapter.request_device(&Gpu::device_descriptor(&adapter));
     let (device, queue) = pollster::block_on(opened).expect("a device");
     egui_wgpu::WgpuSetup::Existing(egui_wgpu::WgpuSetupExisting { instance, adapter, device, queue })
-}
-
-/// Real models, where they lie beside the sources.
-pub fn shared_models() -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    ["../shared/gltf", "../../shared/gltf"].map(|folder| root.join(folder)).into_iter().find(|folder| folder.is_dir())
 }
 
 pub fn small_grid() -> Settings {

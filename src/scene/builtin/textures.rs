@@ -4,7 +4,7 @@
 //! are meant to be tinted by a material's factor.
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use image::{ExtendedColorType, ImageEncoder, ImageResult};
 
 use super::exact::smoothstep;
 
@@ -36,7 +36,7 @@ fn cloud(u: f64, v: f64, cells: usize, seed: u32) -> f64 {
 }
 
 /// Encodes a picture; `pixel` maps u, v in 0 to 1 to sRGB in 0 to 1.
-pub fn png(width_px: u32, height_px: u32, pixel: impl Fn(f64, f64) -> [f64; 3]) -> Vec<u8> {
+pub fn png(width_px: u32, height_px: u32, pixel: impl Fn(f64, f64) -> [f64; 3]) -> ImageResult<Vec<u8>> {
     let mut rgb = Vec::with_capacity((width_px * height_px * 3) as usize);
     for y in 0..height_px {
         for x in 0..width_px {
@@ -47,10 +47,13 @@ pub fn png(width_px: u32, height_px: u32, pixel: impl Fn(f64, f64) -> [f64; 3]) 
     }
     let mut bytes = Vec::new();
     // `Fast` is fdeflate, whose output does not depend on which zlib the build picked or on the processor.
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(&rgb, width_px, height_px, ExtendedColorType::Rgb8)
-        .expect("a picture in memory always encodes");
-    bytes
+    PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive).write_image(
+        &rgb,
+        width_px,
+        height_px,
+        ExtendedColorType::Rgb8,
+    )?;
+    Ok(bytes)
 }
 
 fn mixed(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
@@ -70,7 +73,7 @@ fn paving(u: f64, v: f64, count: usize, joint: f64) -> (usize, usize, f64) {
 }
 
 /// Squares of stone in two colours with a small dark stone at each crossing; 4 x 4 squares.
-pub fn stone_tiles() -> Vec<u8> {
+pub fn stone_tiles() -> ImageResult<Vec<u8>> {
     png(256, 256, |u, v| {
         let (column, row, gap) = paving(u, v, 4, 0.022);
         let light = (column + row).is_multiple_of(2);
@@ -90,7 +93,7 @@ fn inlaid(u: f64, v: f64) -> bool {
 }
 
 /// Roughness (green) and metalness (blue) of [`stone_tiles`]: inlays polished, joints dull.
-pub fn stone_tiles_roughness() -> Vec<u8> {
+pub fn stone_tiles_roughness() -> ImageResult<Vec<u8>> {
     png(256, 256, |u, v| {
         let (column, row, gap) = paving(u, v, 4, 0.022);
         let stone = 0.22 + 0.10 * random(column, row, 9) + 0.9 * gap;
@@ -99,7 +102,7 @@ pub fn stone_tiles_roughness() -> Vec<u8> {
 }
 
 /// Lime plaster, near white.
-pub fn plaster() -> Vec<u8> {
+pub fn plaster() -> ImageResult<Vec<u8>> {
     png(128, 128, |u, v| {
         let blotch = 0.87 + 0.16 * (cloud(u, v, 3, 21) - 0.5) + 0.08 * (cloud(u, v, 16, 22) - 0.5);
         tinted([1.04, 1.02, 1.0], blotch)
@@ -107,7 +110,7 @@ pub fn plaster() -> Vec<u8> {
 }
 
 /// Travertine for columns and mouldings, near white, with faint layers.
-pub fn travertine() -> Vec<u8> {
+pub fn travertine() -> ImageResult<Vec<u8>> {
     png(128, 128, |u, v| {
         let layer = cloud(u, (v + 0.06 * noise(u, v, 4, 32)).fract(), 4, 31) - 0.5;
         let pits = smoothstep(0.70, 0.90, noise((u * 2.0).fract(), (v * 5.0).fract(), 14, 33)) * 0.06;
@@ -116,7 +119,7 @@ pub fn travertine() -> Vec<u8> {
 }
 
 /// Bricks in running bond: 4 across, 12 courses.
-pub fn brick() -> Vec<u8> {
+pub fn brick() -> ImageResult<Vec<u8>> {
     png(256, 256, |u, v| {
         let course = (v * 12.0) as usize;
         let x = u * 4.0 + if course.is_multiple_of(2) { 0.0 } else { 0.5 };
@@ -132,7 +135,7 @@ pub fn brick() -> Vec<u8> {
 
 /// Woven cloth of one colour (sRGB) with a trim: border, lozenge and bands near the hem; v runs
 /// downwards.
-pub fn woven_banner(field: [f64; 3], trim: [f64; 3]) -> Vec<u8> {
+pub fn woven_banner(field: [f64; 3], trim: [f64; 3]) -> ImageResult<Vec<u8>> {
     png(128, 256, |u, v| {
         let thread = |t: f64, count: f64| ((t * count).fract() - 0.5).abs() * 2.0;
         let over = ((u * 32.0) as usize + (v * 64.0) as usize).is_multiple_of(2);
@@ -148,7 +151,7 @@ pub fn woven_banner(field: [f64; 3], trim: [f64; 3]) -> Vec<u8> {
 }
 
 /// Planks along v, brown.
-pub fn wood() -> Vec<u8> {
+pub fn wood() -> ImageResult<Vec<u8>> {
     png(128, 128, |u, v| {
         let (plank, across) = ((u * 4.0) as usize, (u * 4.0).fract());
         let grain = noise((u + 0.02 * noise(u, v, 5, 51)).fract(), v, 48, 52) * 0.5 + cloud(u, v, 4, 53) * 0.5;
@@ -158,7 +161,7 @@ pub fn wood() -> Vec<u8> {
 }
 
 /// Courses of roof tiles along v (4 to a repeat), each darker where the next one covers it.
-pub fn roof_tiles() -> Vec<u8> {
+pub fn roof_tiles() -> ImageResult<Vec<u8>> {
     png(128, 128, |u, v| {
         let (tile, course) = ((u * 4.0) as usize, (v * 4.0) as usize);
         let overlap = smoothstep(0.16, 0.0, (v * 4.0).fract());

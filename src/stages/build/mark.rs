@@ -19,12 +19,10 @@ pub fn record(
     let mask_bytes = 4 * u64::from(mask_words(octree.params.depth));
     frame.clear_part(leaf_bits, mask_bytes);
     frame.clear_part(counters, 8 * u64::from(COUNTERS));
-    frame
-        .pass(&gpu.kernel("build/mark.wgsl", &[("SPLIT", filter.is_split())]))
+    let pass = frame.pass(&gpu.kernel("build/mark.wgsl", &[("SPLIT", filter.is_split())]));
+    voxels
+        .bind_world(pass)
         .bind("octree", &octree.buffer)
-        .bind("work_items", &voxels.work_items)
-        .bind("work_hints", &voxels.work_hints)
-        .bind("world_voxels", &voxels.world_voxels)
         .bind("leaf_bits", leaf_bits)
         .bind("counters", counters)
         .bytes_moved(threads * 16 + mask_bytes)

@@ -48,7 +48,7 @@ pub struct LevelParams {
     pub level: u32,
 }
 
-/// Mirror of `ScanParams` in the scan kernels.
+/// Mirror of `ScanParams` in shaders/shared/scan.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct ScanParams {
@@ -60,6 +60,5 @@ pub const MIRRORS: &[Mirror] = &[
     mirror!(LevelParams, "build/emit.wgsl", "EmitParams", level),
     mirror!(LevelParams, "averaging/average.wgsl", "AverageParams", level),
     mirror!(LevelParams, "light/average_light.wgsl", "AverageLightParams", level),
-    mirror!(ScanParams, "build/scan_sum.wgsl", "ScanParams", count),
-    mirror!(ScanParams, "build/scan_spread.wgsl", "ScanParams", count),
+    mirror!(ScanParams, "shared/scan.wgsl", "ScanParams", count),
 ];

@@ -82,14 +82,8 @@ pub fn record(
     let pass = frame.pass(&gpu.kernel("cones/specular.wgsl", &constants));
     input
         .surfaces
-        .bind(pass)
-        .bind("octree", &octree.sizes.buffer)
+        .bind(octree.bind_ranked(pass))
         .uniform("params", params)
-        .bind("blocks", &octree.blocks)
-        .bind("ranks", &octree.ranks)
-        .bind("leaf_bits", &octree.leaf_bits)
-        .bind("block_starts", &octree.block_starts)
-        .bind("light", &octree.light)
         .bind("list", &tiles.list)
         .bind("specular", specular)
         .counted(&tiles.list, move |listed: &u32| {

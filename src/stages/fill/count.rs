@@ -15,12 +15,10 @@ pub fn record(
     fill: &Filling,
 ) {
     let threads = u64::from(voxels.threads());
-    frame
-        .pass(&gpu.kernel("fill/count.wgsl", &[("SPLIT", filter.is_split())]))
+    let pass = frame.pass(&gpu.kernel("fill/count.wgsl", &[("SPLIT", filter.is_split())]));
+    voxels
+        .bind_world(pass)
         .bind("octree", &octree.buffer)
-        .bind("work_items", &voxels.work_items)
-        .bind("work_hints", &voxels.work_hints)
-        .bind("world_voxels", &voxels.world_voxels)
         .bind("blocks", &fill.blocks)
         .bind("ranks", &fill.ranks)
         .bind("block_counts", &fill.block_counts)

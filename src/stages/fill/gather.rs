@@ -16,14 +16,8 @@ pub fn record(
     fill: &Filling,
 ) {
     let voxel_bytes = WORLD_VOXEL_BYTES * u64::from(voxels.threads());
-    frame
-        .pass(&gpu.kernel("fill/gather.wgsl", &[("SPLIT", filter.is_split())]))
-        .bind("octree", &octree.buffer)
-        .bind("blocks", &fill.blocks)
-        .bind("ranks", &fill.ranks)
-        .bind("block_keys", &fill.block_keys)
-        .bind("block_starts", &fill.block_starts)
-        .bind("sorted_voxels", &fill.sorted_voxels)
+    let pass = frame.pass(&gpu.kernel("fill/gather.wgsl", &[("SPLIT", filter.is_split())]));
+    fill.bind_sources(pass, octree)
         .bind("leaves", &fill.leaves)
         .bind("nodes", &fill.nodes)
         .bind("heavy_blocks", &fill.heavy_blocks)

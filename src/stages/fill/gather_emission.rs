@@ -16,14 +16,8 @@ pub fn record(
 ) {
     let emission_bytes = 8 * u64::from(emission.voxels);
     frame.clear_part(&emission.leaf_emission, 12 * u64::from(octree.params.leaf_count));
-    frame
-        .pass(&gpu.kernel("fill/gather_emission.wgsl", &[("SPLIT", filter.is_split())]))
-        .bind("octree", &octree.buffer)
-        .bind("blocks", &fill.blocks)
-        .bind("ranks", &fill.ranks)
-        .bind("block_keys", &fill.block_keys)
-        .bind("block_starts", &fill.block_starts)
-        .bind("sorted_voxels", &fill.sorted_voxels)
+    let pass = frame.pass(&gpu.kernel("fill/gather_emission.wgsl", &[("SPLIT", filter.is_split())]));
+    fill.bind_sources(pass, octree)
         .bind("sorted_emission", &emission.sorted_emission)
         .bind("emitting_blocks", &emission.emitting_blocks)
         .bind("leaf_emission", &emission.leaf_emission)

@@ -11,14 +11,8 @@ const GROUPS: u64 = 64;
 pub fn record(gpu: &Gpu, frame: &mut Recorder, octree: &OctreeSizes, filter: Filter, fill: &Filling) {
     let kernel = gpu.kernel("fill/gather_heavy.wgsl", &[("SPLIT", filter.is_split())]);
     let threads = GROUPS * u64::from(kernel.workgroup_size[0]);
-    frame
-        .pass(&kernel)
-        .bind("octree", &octree.buffer)
-        .bind("blocks", &fill.blocks)
-        .bind("ranks", &fill.ranks)
-        .bind("block_keys", &fill.block_keys)
-        .bind("block_starts", &fill.block_starts)
-        .bind("sorted_voxels", &fill.sorted_voxels)
+    let pass = frame.pass(&kernel);
+    fill.bind_sources(pass, octree)
         .bind("leaves", &fill.leaves)
         .bind("nodes", &fill.nodes)
         .bind("heavy_blocks", &fill.heavy_blocks)

@@ -15,10 +15,11 @@ pub mod place;
 pub mod place_emission;
 pub mod place_emission_ref;
 pub mod place_ref;
+pub mod ranked;
 
 use crate::data::octree::{MAX_FRAGMENTS, MaskBuffers, OctreeRef, OctreeSizes, PayloadBuffers, Slot, TopologyBuffers};
 use crate::data::pages::WORLD_VOXEL_BYTES;
-use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
+use crate::gpu::{Gpu, GpuBuffer, GpuError, Kernel, PassBuilder, Recorder};
 
 /// What gathering reads and writes; see `data::octree`.
 #[derive(Clone, Debug)]
@@ -74,6 +75,16 @@ impl Filling {
             nodes: payload.nodes.made("nodes")?,
             heavy_blocks: payload.heavy_blocks.made("heavy blocks")?,
         })
+    }
+
+    /// By the names in shaders/shared/block_sources.wgsl and leaf_block.wgsl, with the sorted voxels.
+    fn bind_sources<'r>(&self, pass: PassBuilder<'r, Kernel>, sizes: &OctreeSizes) -> PassBuilder<'r, Kernel> {
+        pass.bind("octree", &sizes.buffer)
+            .bind("blocks", &self.blocks)
+            .bind("ranks", &self.ranks)
+            .bind("block_keys", &self.block_keys)
+            .bind("block_starts", &self.block_starts)
+            .bind("sorted_voxels", &self.sorted_voxels)
     }
 
     /// Before voxels are counted: the payload's own copy of what the topology counted, so that the next payload

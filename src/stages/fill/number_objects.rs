@@ -23,12 +23,10 @@ pub fn record(
 ) {
     let threads = u64::from(voxels.threads());
     frame.clear_part(leaf_objects, 4 * u64::from(octree.params.leaf_count));
-    frame
-        .pass(&gpu.kernel("fill/number_objects.wgsl", &[("SPLIT", filter.is_split())]))
+    let pass = frame.pass(&gpu.kernel("fill/number_objects.wgsl", &[("SPLIT", filter.is_split())]));
+    voxels
+        .bind_world(pass)
         .bind("octree", &octree.buffer)
-        .bind("work_items", &voxels.work_items)
-        .bind("work_hints", &voxels.work_hints)
-        .bind("world_voxels", &voxels.world_voxels)
         .bind("blocks", &fill.blocks)
         .bind("ranks", &fill.ranks)
         .bind("leaf_bits", leaf_bits)

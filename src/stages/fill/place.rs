@@ -6,11 +6,9 @@ use crate::stages::transform::MovingVoxels;
 
 pub fn record(gpu: &Gpu, frame: &mut Recorder, voxels: &MovingVoxels, fill: &Filling) {
     let threads = u64::from(voxels.threads());
-    frame
-        .pass(&gpu.kernel("fill/place.wgsl", &[]))
-        .bind("work_items", &voxels.work_items)
-        .bind("work_hints", &voxels.work_hints)
-        .bind("world_voxels", &voxels.world_voxels)
+    let pass = frame.pass(&gpu.kernel("fill/place.wgsl", &[]));
+    voxels
+        .bind_world(pass)
         .bind("places", &fill.places)
         .bind("block_starts", &fill.block_starts)
         .bind("sorted_voxels", &fill.sorted_voxels)

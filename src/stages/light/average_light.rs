@@ -22,9 +22,9 @@ fn record_level(gpu: &Gpu, frame: &mut Recorder, octree: &LitOctree, opacity: Op
         .bind("octree", &octree.sizes.buffer)
         .uniform("params", &LevelParams { level })
         .bind("first_child", &octree.first_child)
-        .bind("leaf_bits", &octree.leaf_bits)
+        .bind("leaf_bits", &octree.ranked.leaf_bits)
         .bind("block_keys", &octree.block_keys)
-        .bind("block_starts", &octree.block_starts)
+        .bind("block_starts", &octree.ranked.block_starts)
         .bind("nodes", &octree.nodes)
         .bind("light", light)
         .counted(&octree.sizes.buffer, move |octree: &OctreeParams| {

@@ -111,14 +111,11 @@ pub fn record(
 ) {
     let flag = |on: bool| f64::from(u8::from(on));
     let constants = [("SKY", flag(gathered == Gathered::Sky)), ("DIRECTIONAL", flag(opacity.is_directional()))];
-    frame
-        .pass(&gpu.kernel("light/gather.wgsl", &constants))
-        .bind("octree", &octree.sizes.buffer)
+    let pass = frame.pass(&gpu.kernel("light/gather.wgsl", &constants));
+    octree
+        .ranked
+        .bind(pass, &octree.sizes)
         .uniform("cone", params)
-        .bind("leaf_bits", &octree.leaf_bits)
-        .bind("blocks", &octree.blocks)
-        .bind("ranks", &octree.ranks)
-        .bind("block_starts", &octree.block_starts)
         .bind("block_keys", &octree.block_keys)
         .bind("light", light)
         .bind("leaves", &octree.leaves)

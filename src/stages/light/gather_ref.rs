@@ -62,7 +62,9 @@ pub struct TraceRules<'a> {
 /// One cone by these rules, and the share that comes through up to the distance of occlusion.
 pub fn trace_open(lit: &LitNodes, rules: &TraceRules<'_>, apex: DVec3, direction: DVec3) -> (Seen, f64) {
     let TraceRules { cones, sampling, occlusion_cells, ref horizon } = *rules;
-    let diameter = |t: f64| (t * cones.widening()).max(1.0);
+    // Twice the tangent of half the full apex angle, a leaf at least.
+    let half_angle = cones.aperture_degrees.to_radians() / 2.0;
+    let diameter = |t: f64| (2.0 * t * half_angle.tan()).max(1.0);
     let (enter, leave) = inside(apex, direction, f64::from(1_u32 << lit.depth));
     let end = leave.min(cones.reach_cells);
     let mut seen = Seen { radiance: DVec3::ZERO, through: 1.0 };

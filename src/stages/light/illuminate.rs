@@ -97,19 +97,13 @@ pub fn record(
         Shadows::Map => SHADOWS_MAP,
         Shadows::March => SHADOWS_MARCH,
     };
-    frame
-        .pass(&gpu.kernel("light/illuminate.wgsl", &[("SHADOWS", f64::from(how))]))
-        .bind("octree", &octree.sizes.buffer)
+    let pass = frame.pass(&gpu.kernel("light/illuminate.wgsl", &[("SHADOWS", f64::from(how))]));
+    octree
+        .bind_leaves(pass)
         .uniform("light", light)
         .uniform("shadow", &map.params)
         .texture("shadow_map", &map.view)
-        .bind("leaf_bits", &octree.leaf_bits)
-        .bind("occupied", &octree.occupied)
-        .bind("blocks", &octree.blocks)
-        .bind("ranks", &octree.ranks)
         .bind("block_keys", &octree.block_keys)
-        .bind("block_starts", &octree.block_starts)
-        .bind("leaves", &octree.leaves)
         .bind("irradiance", irradiance)
         .counted(&octree.sizes.buffer, |octree: &OctreeParams| {
             let threads = u64::from(octree.leaf_block_count);

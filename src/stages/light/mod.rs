@@ -18,7 +18,8 @@ pub mod inject_ref;
 pub mod shadow;
 
 use crate::data::octree::{OctreeRef, OctreeSizes};
-use crate::gpu::{Constant, GpuBuffer, GpuError, constants};
+use crate::gpu::{Constant, GpuBuffer, GpuError, Kernel, PassBuilder, constants};
+use crate::stages::fill::ranked::RankedLeaves;
 
 pub const LIGHT_DIRECTIONAL: u32 = 0;
 pub const LIGHT_POINT: u32 = 1;
@@ -46,12 +47,9 @@ pub const CONSTANTS: &[Constant] = constants![
 #[derive(Clone, Debug)]
 pub struct LitOctree {
     pub sizes: OctreeSizes,
-    pub leaf_bits: GpuBuffer,
+    pub ranked: RankedLeaves,
     pub occupied: GpuBuffer,
-    pub blocks: GpuBuffer,
-    pub ranks: GpuBuffer,
     pub block_keys: GpuBuffer,
-    pub block_starts: GpuBuffer,
     pub first_child: GpuBuffer,
     pub leaves: GpuBuffer,
     pub nodes: GpuBuffer,
@@ -63,15 +61,17 @@ impl LitOctree {
         let OctreeRef { sizes, masks, topology, payload } = octree;
         Ok(Self {
             sizes: sizes.clone(),
-            leaf_bits: masks.leaf_bits.made("leaf bits")?,
+            ranked: RankedLeaves::new(octree)?,
             occupied: masks.occupied.made("occupied masks")?,
-            blocks: masks.blocks.made("block masks")?,
-            ranks: masks.ranks.made("block ranks")?,
             block_keys: topology.block_keys.made("block keys")?,
-            block_starts: payload.block_starts.made("block starts")?,
             first_child: topology.first_child.made("child pointers")?,
             leaves: payload.leaves.made("leaves")?,
             nodes: payload.nodes.made("nodes")?,
         })
+    }
+
+    /// By the names in shaders/shared/light_through.wgsl.
+    pub(super) fn bind_leaves<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
+        self.ranked.bind(pass, &self.sizes).bind("occupied", &self.occupied).bind("leaves", &self.leaves)
     }
 }

@@ -10,6 +10,7 @@ use crate::data::octree::{OctreeRef, OctreeSizes, PointerLayout};
 use crate::gpu::{Constant, GpuBuffer, GpuError, Kernel, PassBuilder, constants};
 use crate::settings::lighting::Opacity;
 use crate::settings::{Lookup, Sampling};
+use crate::stages::fill::ranked::RankedLeaves;
 
 pub const FILTER_NEAREST: u32 = 0;
 pub const FILTER_TRILINEAR: u32 = 1;
@@ -84,13 +85,10 @@ fn flag(on: bool) -> f64 {
 #[derive(Clone, Debug)]
 pub struct SampledOctree {
     pub sizes: OctreeSizes,
-    pub blocks: GpuBuffer,
-    pub ranks: GpuBuffer,
+    pub ranked: RankedLeaves,
     pub first_child: GpuBuffer,
     /// Under rank look-up any buffer: nothing of it is read.
     pub neighbours: GpuBuffer,
-    pub leaf_bits: GpuBuffer,
-    pub block_starts: GpuBuffer,
     pub light: GpuBuffer,
 }
 
@@ -103,35 +101,30 @@ impl SampledOctree {
         lookup: Lookup,
         pointers: Option<&GpuBuffer>,
     ) -> Result<Self, GpuError> {
-        let OctreeRef { sizes, masks, topology, payload } = octree;
-        let ranks = masks.ranks.made("block ranks")?;
+        let OctreeRef { sizes, topology, .. } = octree;
+        let ranked = RankedLeaves::new(octree)?;
         let made = |label: &str| pointers.cloned().ok_or_else(|| GpuError::Missing { label: label.to_owned() });
         let neighbours = match pointer_layout(lookup) {
-            None => ranks.clone(),
+            None => ranked.ranks.clone(),
             Some(PointerLayout::Blocks) => made("neighbour pointers")?,
             Some(PointerLayout::Nodes) => made("neighbour pointers of nodes")?,
         };
         Ok(Self {
             sizes: sizes.clone(),
-            blocks: masks.blocks.made("block masks")?,
-            ranks,
+            ranked,
             first_child: topology.first_child.made("child pointers")?,
             neighbours,
-            leaf_bits: masks.leaf_bits.made("leaf bits")?,
-            block_starts: payload.block_starts.made("block starts")?,
             light: light.clone(),
         })
     }
 
+    /// Without pointers, by the names in shaders/shared/corners_ranked.wgsl.
+    pub(super) fn bind_ranked<'a>(&self, pass: PassBuilder<'a, Kernel>) -> PassBuilder<'a, Kernel> {
+        self.ranked.bind(pass, &self.sizes).bind("light", &self.light)
+    }
+
     /// Binds all of it by the names in shaders/shared/look_up.wgsl.
     pub fn bind<'a>(&self, pass: PassBuilder<'a, Kernel>) -> PassBuilder<'a, Kernel> {
-        pass.bind("octree", &self.sizes.buffer)
-            .bind("blocks", &self.blocks)
-            .bind("ranks", &self.ranks)
-            .bind("first_child", &self.first_child)
-            .bind("neighbours", &self.neighbours)
-            .bind("leaf_bits", &self.leaf_bits)
-            .bind("block_starts", &self.block_starts)
-            .bind("light", &self.light)
+        self.bind_ranked(pass).bind("first_child", &self.first_child).bind("neighbours", &self.neighbours)
     }
 }

@@ -8,7 +8,7 @@ pub mod skinned_ref;
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::gpu::{GpuBuffer, Mirror, mirror};
+use crate::gpu::{GpuBuffer, Kernel, Mirror, PassBuilder, mirror};
 
 /// Mirror of `TransformParams` in shaders/shared/move_voxel.wgsl.
 #[repr(C)]
@@ -62,5 +62,20 @@ pub struct MovingVoxels {
 impl MovingVoxels {
     pub fn threads(&self) -> u32 {
         self.rigid_threads + self.skinned_threads
+    }
+
+    /// World voxels and the list that walks them, by the names in shaders/shared/work_list.wgsl.
+    pub(super) fn bind_world<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
+        pass.bind("work_items", &self.work_items)
+            .bind("work_hints", &self.work_hints)
+            .bind("world_voxels", &self.world_voxels)
+    }
+
+    /// The same, and what they are moved from.
+    fn bind_all<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
+        self.bind_world(pass)
+            .bind("parts", &self.parts)
+            .bind("matrices", &self.matrices)
+            .bind("cache_voxels", &self.cache_voxels)
     }
 }

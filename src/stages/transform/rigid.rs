@@ -5,15 +5,10 @@ use crate::gpu::{Gpu, Recorder};
 
 pub fn record(gpu: &Gpu, frame: &mut Recorder, voxels: &MovingVoxels, grid_cells: u32) {
     let threads = u64::from(voxels.rigid_threads);
-    frame
-        .pass(&gpu.kernel("transform/rigid.wgsl", &[]))
+    let pass = frame.pass(&gpu.kernel("transform/rigid.wgsl", &[]));
+    voxels
+        .bind_all(pass)
         .uniform("params", &TransformParams { grid_cells: grid_cells as i32, first_thread: 0 })
-        .bind("work_items", &voxels.work_items)
-        .bind("work_hints", &voxels.work_hints)
-        .bind("parts", &voxels.parts)
-        .bind("matrices", &voxels.matrices)
-        .bind("cache_voxels", &voxels.cache_voxels)
-        .bind("world_voxels", &voxels.world_voxels)
         .bytes_moved(threads * (16 + 16))
         .dispatch(threads);
 }

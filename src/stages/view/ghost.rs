@@ -20,8 +20,9 @@ pub fn record(
     (view, colors): (&ViewParams, &GhostColors),
     picture: &Picture,
 ) {
-    frame
-        .pass(&gpu.kernel("view/ghost.wgsl", &[]))
+    let pass = frame.pass(&gpu.kernel("view/ghost.wgsl", &[]));
+    picture
+        .bind(pass)
         .bind("octree", &octree.buffer)
         .uniform("view", view)
         .uniform("ghost", colors)
@@ -29,7 +30,5 @@ pub fn record(
         .bind("moved_occupied", &moved.occupied)
         .bind("exact_bits", &exact.leaf_bits)
         .bind("exact_occupied", &exact.occupied)
-        .texture("picture", picture.color.view())
-        .texture("depth", picture.distance.view())
         .dispatch(picture.tiled_threads());
 }

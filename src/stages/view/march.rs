@@ -3,16 +3,14 @@
 use super::{Palette, Picture, ViewParams};
 use crate::data::octree::{OctreeRef, OctreeSizes};
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
+use crate::stages::fill::ranked::RankedLeaves;
 
 /// What marching reads of an octree.
 #[derive(Clone, Debug)]
 pub struct MarchedOctree {
     pub sizes: OctreeSizes,
-    pub leaf_bits: GpuBuffer,
+    pub ranked: RankedLeaves,
     pub occupied: GpuBuffer,
-    pub blocks: GpuBuffer,
-    pub ranks: GpuBuffer,
-    pub block_starts: GpuBuffer,
     pub leaves: GpuBuffer,
     pub nodes: GpuBuffer,
     /// Needed only where colour is by object.
@@ -25,11 +23,8 @@ impl MarchedOctree {
         let OctreeRef { sizes, masks, payload, .. } = octree;
         Ok(Self {
             sizes: sizes.clone(),
-            leaf_bits: masks.leaf_bits.made("leaf bits")?,
+            ranked: RankedLeaves::new(octree)?,
             occupied: masks.occupied.made("occupied masks")?,
-            blocks: masks.blocks.made("block masks")?,
-            ranks: masks.ranks.made("block ranks")?,
-            block_starts: payload.block_starts.made("block starts")?,
             leaves: payload.leaves.made("leaves")?,
             nodes: payload.nodes.made("nodes")?,
             leaf_objects: leaf_objects.cloned(),
@@ -44,20 +39,14 @@ pub fn record(
     (view, palette): (&ViewParams, &Palette),
     picture: &Picture,
 ) {
-    frame
-        .pass(&gpu.kernel("view/march.wgsl", &[]))
-        .bind("octree", &octree.sizes.buffer)
+    let pass = frame.pass(&gpu.kernel("view/march.wgsl", &[]));
+    picture
+        .bind(octree.ranked.bind(pass, &octree.sizes))
         .uniform("view", view)
         .uniform("palette", palette)
-        .bind("leaf_bits", &octree.leaf_bits)
         .bind("occupied", &octree.occupied)
-        .bind("blocks", &octree.blocks)
-        .bind("ranks", &octree.ranks)
-        .bind("block_starts", &octree.block_starts)
         .bind("leaves", &octree.leaves)
         .bind("nodes", &octree.nodes)
         .bind("leaf_objects", octree.leaf_objects.as_ref().unwrap_or(&octree.leaves))
-        .texture("picture", picture.color.view())
-        .texture("depth", picture.distance.view())
         .dispatch(picture.tiled_threads());
 }

@@ -42,18 +42,12 @@ pub fn record(
     view: &ViewParams,
     picture: &Picture,
 ) {
-    frame
-        .pass(&gpu.kernel("view/march_light.wgsl", &[]))
-        .bind("octree", &octree.sizes.buffer)
+    let pass = frame.pass(&gpu.kernel("view/march_light.wgsl", &[]));
+    picture
+        .bind(octree.ranked.bind(pass, &octree.sizes))
         .uniform("view", view)
         .uniform("exposure", &ExposureParams::new(exposure))
-        .bind("leaf_bits", &octree.leaf_bits)
         .bind("occupied", &octree.occupied)
-        .bind("blocks", &octree.blocks)
-        .bind("ranks", &octree.ranks)
-        .bind("block_starts", &octree.block_starts)
         .bind("light", light)
-        .texture("picture", picture.color.view())
-        .texture("depth", picture.distance.view())
         .dispatch(picture.tiled_threads());
 }

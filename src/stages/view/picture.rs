@@ -2,7 +2,7 @@
 
 use image::RgbaImage;
 
-use crate::gpu::{DEPTH_FORMAT, Gpu, GpuError, GpuTexture};
+use crate::gpu::{DEPTH_FORMAT, Gpu, GpuError, GpuTexture, Kernel, PassBuilder};
 
 /// Gamma-encoded sRGB, as egui and PNG files take it.
 pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -32,6 +32,11 @@ impl Picture {
     /// Pixels in tiles of 8 x 8 (shaders/shared/view.wgsl): a thread each.
     pub fn tiled_threads(&self) -> u64 {
         tiled_threads(self.size_px())
+    }
+
+    /// By the names in shaders/shared/store_pixel.wgsl.
+    pub(super) fn bind<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
+        pass.texture("picture", self.color.view()).texture("depth", self.distance.view())
     }
 
     /// Blocks until submitted work is done.

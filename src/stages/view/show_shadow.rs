@@ -30,13 +30,12 @@ pub fn record(
 ) {
     let [least, most] = range_cells.map(|cells| cells as f32);
     let params = ShowShadowParams { least, most, layers: map.params.count, map_px: map.params.size_px };
-    frame
-        .pass(&gpu.kernel("view/show_shadow.wgsl", &[]))
+    let pass = frame.pass(&gpu.kernel("view/show_shadow.wgsl", &[]));
+    picture
+        .bind(pass)
         .uniform("view", view)
         .uniform("palette", palette)
         .uniform("params", &params)
         .texture("shadow_map", &map.view)
-        .texture("picture", picture.color.view())
-        .texture("depth", picture.distance.view())
         .dispatch(picture.tiled_threads());
 }

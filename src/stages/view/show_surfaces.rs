@@ -72,14 +72,13 @@ pub fn record(
         (SHOWS_LIGHT, ShownExposure::Measured(buffer)) => pass.bind("exposure", buffer),
         _ => pass.uniform("exposure", &PictureExposure::set(1.0)),
     };
-    exposed
+    picture
+        .bind(exposed)
         .uniform("view", view)
         .uniform("params", params)
         .uniform("palette", palette)
         .texture("surface_near", surfaces.near.view())
         .bind("shown", shown)
-        .texture("picture", picture.color.view())
-        .texture("depth", picture.distance.view())
         .dispatch(picture.tiled_threads());
 }
 

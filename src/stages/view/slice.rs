@@ -102,11 +102,9 @@ pub fn record(
     let sampler = Sampler { sampling: slice.sampling, lookup: slice.lookup, opacity: Opacity::Isotropic };
     let pass = frame.pass(&gpu.kernel("view/slice.wgsl", &sampler.constants()));
     octree
-        .bind(pass)
+        .bind(picture.bind(pass))
         .uniform("view", view)
         .uniform("palette", palette)
         .uniform("params", &SliceParams::new(slice, octree.sizes.params.depth, range))
-        .texture("picture", picture.color.view())
-        .texture("depth", picture.distance.view())
         .dispatch(picture.tiled_threads());
 }

@@ -5,7 +5,6 @@ use glam::DVec3;
 
 use super::camera::PixelRay;
 use super::march_light_ref;
-use super::slice::sampled_level;
 use crate::color::luminance;
 use crate::settings::{Sampling, Slice, SliceAxis, SliceValue};
 use crate::stages::sample::sample_points_ref::{LitNodes, Sampled};
@@ -26,9 +25,15 @@ pub fn meeting(slice: &Slice, ray: &PixelRay, cells: f64) -> Option<(f64, DVec3)
     meets.then_some((t, place))
 }
 
+/// Of all levels the one whose nodes are nearest to that width, by ratio; of two as near the coarser.
+fn level(width_cells: f64, depth: u32) -> u32 {
+    let ratio = |level: u32| (width_cells.log2() - f64::from(depth - level)).abs();
+    (0..=depth).min_by(|a, b| ratio(*a).total_cmp(&ratio(*b))).unwrap_or(depth)
+}
+
 /// What is shown at a place; `None` where there is nothing to have a mean light.
 pub fn value(slice: &Slice, lit: &LitNodes, place: DVec3) -> Option<f64> {
-    let level = sampled_level(slice, lit.depth);
+    let level = level(slice.width_cells, lit.depth);
     let Sampled { radiance, alpha } = match slice.sampling {
         Sampling::Nearest => lit.nearest(level, place, DVec3::X),
         Sampling::Trilinear => lit.trilinear(level, place, DVec3::X),

@@ -14,6 +14,7 @@ mod walls;
 
 use glam::{DMat3, DQuat, DVec3};
 
+use super::MakeError;
 use super::exact::at;
 use super::glb::{ClipWriter, GlbWriter};
 use crate::scene::Trs;
@@ -22,10 +23,10 @@ use palette::Palette;
 /// Length of the clip `walk`.
 const WALK_SECS: f64 = 10.0;
 
-pub fn make() -> Vec<u8> {
+pub fn make() -> Result<Vec<u8>, MakeError> {
     let mut glb = GlbWriter::default();
     let mut walk = ClipWriter::new("walk");
-    let palette = Palette::new(&mut glb);
+    let palette = Palette::new(&mut glb)?;
     building::add(&mut glb, &palette);
     walls::add(&mut glb, &palette);
     furnishing::add(&mut glb, &palette, &mut walk);

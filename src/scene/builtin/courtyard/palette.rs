@@ -1,6 +1,7 @@
 //! The materials of the courtyard. Colours are linear.
 
 use gltf::json::{Index, Material};
+use image::ImageResult;
 
 use super::super::character::piece::Cloths;
 use super::super::glb::{GlbWriter, Paint};
@@ -40,10 +41,10 @@ pub struct Fittings {
 }
 
 impl Palette {
-    pub fn new(glb: &mut GlbWriter) -> Self {
+    pub fn new(glb: &mut GlbWriter) -> ImageResult<Self> {
         let fittings = fittings(glb);
         let cloths = cloths(glb, &fittings);
-        Self { masonry: masonry(glb), fittings, banners: banners(glb), cloths }
+        Ok(Self { masonry: masonry(glb)?, fittings, banners: banners(glb)?, cloths })
     }
 }
 
@@ -55,14 +56,14 @@ fn metal(base_color: [f32; 3], roughness: f32) -> Paint {
     Paint { metallic: 1.0, ..plain(base_color, roughness) }
 }
 
-fn masonry(glb: &mut GlbWriter) -> Masonry {
-    let tiles = Some(glb.texture("stone tiles", &textures::stone_tiles()));
-    let tiles_roughness = Some(glb.texture("stone tiles, roughness", &textures::stone_tiles_roughness()));
-    let plaster = Some(glb.texture("plaster", &textures::plaster()));
-    let travertine = Some(glb.texture("travertine", &textures::travertine()));
-    let brick = Some(glb.texture("brick", &textures::brick()));
-    let roof = Some(glb.texture("roof tiles", &textures::roof_tiles()));
-    let wood = Some(glb.texture("wood", &textures::wood()));
+fn masonry(glb: &mut GlbWriter) -> ImageResult<Masonry> {
+    let tiles = Some(glb.texture("stone tiles", &textures::stone_tiles()?));
+    let tiles_roughness = Some(glb.texture("stone tiles, roughness", &textures::stone_tiles_roughness()?));
+    let plaster = Some(glb.texture("plaster", &textures::plaster()?));
+    let travertine = Some(glb.texture("travertine", &textures::travertine()?));
+    let brick = Some(glb.texture("brick", &textures::brick()?));
+    let roof = Some(glb.texture("roof tiles", &textures::roof_tiles()?));
+    let wood = Some(glb.texture("wood", &textures::wood()?));
     let textured = |base_color_texture, base_color: [f32; 3], roughness: f32| Paint {
         base_color_texture,
         ..plain(base_color, roughness)
@@ -71,7 +72,7 @@ fn masonry(glb: &mut GlbWriter) -> Masonry {
     let paving =
         Paint { metallic: 1.0, metallic_roughness_texture: tiles_roughness, ..textured(tiles, [1.0, 1.0, 1.0], 1.0) };
     let roof = Paint { double_sided: true, ..textured(roof, [1.0, 0.94, 0.88], 0.85) };
-    Masonry {
+    Ok(Masonry {
         paving: glb.material("paving", paving),
         inlay: glb.material("polished inlay", plain([0.030, 0.062, 0.055], 0.05)),
         gallery_floor: glb.material("gallery floor", textured(tiles, [0.95, 0.62, 0.46], 0.45)),
@@ -83,7 +84,7 @@ fn masonry(glb: &mut GlbWriter) -> Masonry {
         brick: glb.material("brick", textured(brick, [1.0, 1.0, 1.0], 0.9)),
         roof: glb.material("roof tiles", roof),
         wood: glb.material("wood", textured(wood, [0.85, 0.80, 0.75], 0.65)),
-    }
+    })
 }
 
 fn fittings(glb: &mut GlbWriter) -> Fittings {
@@ -100,17 +101,18 @@ fn fittings(glb: &mut GlbWriter) -> Fittings {
 }
 
 /// Crimson, teal and ochre cloth, each with its trim (sRGB).
-fn banners(glb: &mut GlbWriter) -> [Index<Material>; 3] {
+fn banners(glb: &mut GlbWriter) -> ImageResult<[Index<Material>; 3]> {
     let cloths = [
         ("crimson banner", [0.70, 0.11, 0.13], [0.95, 0.76, 0.36]),
         ("teal banner", [0.05, 0.43, 0.45], [0.93, 0.90, 0.78]),
         ("ochre banner", [0.88, 0.60, 0.16], [0.50, 0.12, 0.14]),
     ];
-    cloths.map(|(name, field, trim)| {
-        let texture = glb.texture(name, &textures::woven_banner(field, trim));
+    let [crimson, teal, ochre] = cloths.map(|(name, field, trim)| -> ImageResult<_> {
+        let texture = glb.texture(name, &textures::woven_banner(field, trim)?);
         let paint = Paint { base_color_texture: Some(texture), roughness: 0.9, double_sided: true, ..Paint::default() };
-        glb.material(name, paint)
-    })
+        Ok(glb.material(name, paint))
+    });
+    Ok([crimson?, teal?, ochre?])
 }
 
 /// What the traveller wears.

@@ -18,6 +18,7 @@ use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::{Checked::Valid, USize64};
 use gltf::json::{Index, Material, Mesh, Node, Root, Scene, Value, buffer};
 
+use super::MakeError;
 use super::exact::{ROTATION_STEPS, STEPS, rounded};
 use super::shapes::Surface;
 pub use clip::{ClipWriter, Track};
@@ -183,7 +184,7 @@ impl GlbWriter {
     }
 
     /// The file's bytes.
-    pub fn finish(mut self, name: &str) -> Vec<u8> {
+    pub fn finish(mut self, name: &str) -> Result<Vec<u8>, MakeError> {
         self.bin.resize(self.bin.len().next_multiple_of(4), 0);
         self.root.asset.generator = Some("Octolume".into());
         let byte_length = USize64::from(self.bin.len());
@@ -191,11 +192,11 @@ impl GlbWriter {
         let nodes = std::mem::take(&mut self.top_nodes);
         let scene = self.root.push(Scene { name: Some(name.into()), nodes, extensions: None, extras: None });
         self.root.scene = Some(scene);
-        let json = self.root.to_vec().expect("a document of finite numbers and valid names always serializes");
+        let json = self.root.to_vec()?;
         // The header's length is computed by `to_vec`.
         let header = Header { magic: *b"glTF", version: 2, length: 0 };
         let glb = Glb { header, json: json.into(), bin: Some(self.bin.into()) };
-        glb.to_vec().expect("writing to memory does not fail")
+        Ok(glb.to_vec()?)
     }
 }
 
