@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::theme;
 use crate::engine::{NodeAddress, NodeFacts, StoredNode};
-use crate::stages::view::camera::PixelRays;
+use crate::stages::pixels::camera::PixelRays;
 
 const DASH: f32 = 4.0;
 /// Of the balls at interpolation corners, in points; of small nodes this share of an edge.

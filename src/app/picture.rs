@@ -14,7 +14,7 @@ use super::{App, PROGRESS_STEP, exact_job, legend, theme, viewport};
 use crate::gpu::GpuTexture;
 use crate::scene::OrbitCamera;
 use crate::settings::{Settings, View};
-use crate::stages::view::camera::PixelRays;
+use crate::stages::pixels::camera::PixelRays;
 
 impl App {
     pub(super) fn picture_ui(&mut self, ui: &mut Ui, clock_secs: f64) {

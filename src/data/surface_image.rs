@@ -75,7 +75,7 @@ impl SurfaceImage {
 /// One pixel's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceTexel {
-    /// From the eye along the pixel's ray; [`crate::stages::view::NO_DEPTH`] where nothing is.
+    /// From the eye along the pixel's ray; [`crate::stages::pixels::NO_DEPTH`] where nothing is.
     pub distance_cells: f32,
     /// Unit length.
     pub normal: DVec3,

@@ -13,7 +13,7 @@ use crate::gpu::{BufferUse, Gpu};
 use crate::plan::{self, Asked, FramePlan, Key, Keys};
 use crate::prepare::{ExactVoxels, Prepared};
 use crate::settings::{MotionSettings, Settings};
-use crate::stages::view::Picture;
+use crate::stages::pixels::Picture;
 
 /// What other methods made of the same moment is kept while all buffers together take no more than this.
 pub const KEPT_BYTES: u64 = 2 << 30;

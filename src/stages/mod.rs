@@ -9,6 +9,7 @@ pub mod cones;
 pub mod fill;
 pub mod light;
 pub mod mesh;
+pub mod pixels;
 pub mod sample;
 mod shaders;
 pub mod surface;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
-use super::{build, cones, fill, light, mesh, sample, surface, transform, view};
+use super::{build, cones, fill, light, mesh, pixels, sample, surface, transform, view};
 use crate::color::LUMINANCE;
 use crate::data;
 use crate::gpu::{self, Constant, Mirror, Shaders, constants};
@@ -37,7 +37,7 @@ const CONSTANTS: &[&[Constant]] = &[
     surface::sum_luminance::CONSTANTS,
     cones::CONSTANTS,
     cones::specular::CONSTANTS,
-    view::CONSTANTS,
+    pixels::CONSTANTS,
     view::show_surfaces::CONSTANTS,
     view::slice::CONSTANTS,
 ];
@@ -65,7 +65,7 @@ pub const MIRRORS: &[&[Mirror]] = &[
     cones::list_tiles::MIRRORS,
     cones::specular::MIRRORS,
     cones::upsample::MIRRORS,
-    view::MIRRORS,
+    pixels::MIRRORS,
     view::palette::MIRRORS,
     view::march_light::MIRRORS,
     view::mesh::MIRRORS,

@@ -4,15 +4,16 @@ use glam::DVec3;
 use octolume::data::surface_image::{SurfaceImage, SurfaceTexel};
 use octolume::gpu::{Gpu, GpuBuffer, Job, Recorder};
 use octolume::settings::{ColorBy, Look, SurfaceView, ToneCurve};
+use octolume::stages::pixels::camera::PixelRays;
+use octolume::stages::pixels::{NO_DEPTH, Picture, ViewParams};
 use octolume::stages::surface::brdf_ref;
 use octolume::stages::surface::compose::{self, ComposeParams, Terms};
 use octolume::stages::surface::compose_ref::{self, Light};
 use octolume::stages::surface::sum_luminance::{self, SUM_BYTES};
 use octolume::stages::surface::{mean_luminance_ref, sum_luminance_ref};
-use octolume::stages::view::camera::PixelRays;
 use octolume::stages::view::palette::legend_value;
 use octolume::stages::view::show_surfaces::{self, ShowSurfacesParams, ShownExposure};
-use octolume::stages::view::{NO_DEPTH, Palette, Picture, ViewParams, show_surfaces_ref};
+use octolume::stages::view::{Palette, show_surfaces_ref};
 use wgpu::BufferUsages;
 
 use crate::device::gpu;

@@ -11,8 +11,8 @@ use octolume::settings::lighting::Opacity;
 use octolume::settings::{ConeTracing, Filter, Lookup};
 use octolume::stages::cones::diffuse::{DiffuseCones, DiffuseTerms};
 use octolume::stages::fill::gather_ref::Fragment;
+use octolume::stages::pixels::LEAST_LIGHT;
 use octolume::stages::sample::Sampler;
-use octolume::stages::view::LEAST_LIGHT;
 use serde::{Deserialize, Serialize};
 
 use crate::cone_gloss::reflected;
@@ -232,7 +232,7 @@ fn constant_radiance_comes_back_whatever_is_occupied_how_much() {
         let input = (&octree.sampled(Lookup::Ranks), &sampler);
         let found = diffuse(gpu(), input, &photo, (&cones, BOTH), ([5.0; 3], photo.size_px()));
         for (pixel, texel) in found.iter().zip(&photo.texels) {
-            let expected = if texel.distance_cells < octolume::stages::view::NO_DEPTH { 5.0 } else { 0.0 };
+            let expected = if texel.distance_cells < octolume::stages::pixels::NO_DEPTH { 5.0 } else { 0.0 };
             // Cones end with LEAST_LIGHT to go; each of some 60 steps rounds.
             assert!((f64::from(pixel[0]) - expected).abs() < 5.0 * (LEAST_LIGHT + 60.0 * 4.0 * 6e-8), "{pixel:?}");
         }

@@ -8,8 +8,8 @@ use octolume::settings::{ConeTracing, Filter, Lookup, Sampling};
 use octolume::stages::cones::diffuse::{DiffuseCones, DiffuseTerms};
 use octolume::stages::cones::diffuse_ref;
 use octolume::stages::light::gather::Cones;
+use octolume::stages::pixels::LEAST_LIGHT;
 use octolume::stages::sample::Sampler;
-use octolume::stages::view::LEAST_LIGHT;
 
 use crate::cone_rig::{NOTHING, Photo, diffuse, dull, source};
 use crate::device::gpu;

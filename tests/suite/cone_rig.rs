@@ -10,9 +10,9 @@ use octolume::stages::cones::blur_ref::FilterPoint;
 use octolume::stages::cones::diffuse::{self, DiffuseCones, DiffuseParams, DiffuseTerms};
 use octolume::stages::cones::diffuse_ref::SurfacePoint;
 use octolume::stages::cones::{ConesInput, Surfaces, image_bytes};
+use octolume::stages::pixels::camera::{PixelRay, PixelRays};
+use octolume::stages::pixels::{NO_DEPTH, ViewParams};
 use octolume::stages::sample::{SampledOctree, Sampler};
-use octolume::stages::view::camera::{PixelRay, PixelRays};
-use octolume::stages::view::{NO_DEPTH, ViewParams};
 
 use crate::stage_rig::{buffer, read, run};
 

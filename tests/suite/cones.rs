@@ -10,7 +10,7 @@ use octolume::settings::lighting::Opacity;
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::light::gather::{self, ConeParams, Cones, Gathered};
 use octolume::stages::light::gather_ref::{self, Seen, basis, cosine_directions};
-use octolume::stages::view::LEAST_LIGHT;
+use octolume::stages::pixels::LEAST_LIGHT;
 use proptest::prelude::RngExt;
 
 use crate::device::{gpu, open};

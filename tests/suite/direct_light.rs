@@ -8,10 +8,10 @@ use octolume::lights::PosedLight;
 use octolume::scene::{LightKind, LocalTransform, Material, Node, OrbitCamera, Scene, Trs};
 use octolume::settings::Filter;
 use octolume::stages::light::illuminate_ref::{Light, Source};
+use octolume::stages::pixels::NO_DEPTH;
 use octolume::stages::surface::brdf_ref::Reflector;
 use octolume::stages::surface::direct_ref::{self, Place};
 use octolume::stages::surface::{LEAST_EYE_COSINE, direct_march_ref, emission_ref};
-use octolume::stages::view::NO_DEPTH;
 
 use proptest::prelude::RngExt;
 

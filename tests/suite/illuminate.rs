@@ -12,7 +12,7 @@ use octolume::settings::lighting::Shadows;
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::light::LEAST_DISTANCE_CELLS;
 use octolume::stages::light::illuminate_ref::{self, Light, Source};
-use octolume::stages::view::SHORT_NORMAL;
+use octolume::stages::pixels::SHORT_NORMAL;
 
 use crate::device::gpu;
 use crate::light_rig::{LightRig, full, light, point, sun};

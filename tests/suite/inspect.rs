@@ -8,7 +8,7 @@ use octolume::prepare::prepare;
 use octolume::progress::Progress;
 use octolume::scene::{builtin, load};
 use octolume::settings::{ColorBy, Settings, SliceValue, View};
-use octolume::stages::view::camera::PixelRays;
+use octolume::stages::pixels::camera::PixelRays;
 
 use crate::device::open;
 

@@ -9,13 +9,12 @@ use octolume::gpu::{Gpu, Recorder};
 use octolume::settings::lighting::Opacity;
 use octolume::settings::{AlphaRule, ColorBy, Filter};
 use octolume::stages::light::shadow::{ShadowMap, ShadowParams};
-use octolume::stages::view::camera::PixelRays;
+use octolume::stages::pixels::camera::PixelRays;
+use octolume::stages::pixels::{BACKGROUND, Picture, ViewParams};
 use octolume::stages::view::march_light::Exposure;
 use octolume::stages::view::march_ref::{self, Shown};
 use octolume::stages::view::palette::legend_value;
-use octolume::stages::view::{
-    BACKGROUND, Palette, Picture, ViewParams, march_light, march_light_ref, show_shadow, show_shadow_ref,
-};
+use octolume::stages::view::{Palette, march_light, march_light_ref, show_shadow, show_shadow_ref};
 
 use crate::device::gpu;
 use crate::light_rig::{LightRig, full, point};

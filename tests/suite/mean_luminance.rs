@@ -2,12 +2,13 @@
 
 use octolume::gpu::{GpuBuffer, Recorder};
 use octolume::settings::{ColorBy, Look, SurfaceView, ToneCurve};
+use octolume::stages::pixels::camera::PixelRays;
+use octolume::stages::pixels::{MEAN_SHOWN_AS, Picture, ViewParams};
 use octolume::stages::surface::mean_luminance::{self, EXPOSURE_BYTES, PictureExposure};
 use octolume::stages::surface::sum_luminance::{self, SUM_BYTES, SUM_THREADS};
 use octolume::stages::surface::{mean_luminance_ref, sum_luminance_ref};
-use octolume::stages::view::camera::PixelRays;
+use octolume::stages::view::Palette;
 use octolume::stages::view::show_surfaces::{self, ShowSurfacesParams, ShownExposure};
-use octolume::stages::view::{MEAN_SHOWN_AS, Palette, Picture, ViewParams};
 use proptest::prelude::RngExt;
 use wgpu::BufferUsages;
 

@@ -11,9 +11,10 @@ use octolume::gpu::{Gpu, Job, Recorder};
 use octolume::scene::{LocalTransform, Material, Mesh, Node, OrbitCamera, Primitive, Scene, Skin, Trs};
 use octolume::settings::{Hidden, Look};
 use octolume::stages::mesh::{MeshScene, PosedMesh, Textures};
-use octolume::stages::view::camera::PixelRays;
+use octolume::stages::pixels::camera::PixelRays;
+use octolume::stages::pixels::projection;
+use octolume::stages::pixels::{BACKGROUND, Picture, picture};
 use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
-use octolume::stages::view::{BACKGROUND, Picture, picture};
 
 pub const SIZE_PX: [u32; 2] = [64, 48];
 
@@ -76,7 +77,7 @@ pub fn recorded(gpu: &Gpu, scene: &Scene, look: &Look) -> (Recorder, Picture) {
     let depth = picture::depth_buffer(gpu, SIZE_PX).expect("fits");
     let (camera, grid) = (camera(), grid());
     let of_pose = (&scene.pose(None, 0.0), &Hidden::default());
-    let camera_from_world = mesh::camera_from_world(&camera, &grid);
+    let camera_from_world = projection::camera_from_world(&camera, &grid);
     let posed = PosedMesh::new(gpu, &mesh, &mut Slot::default(), of_pose, &camera_from_world).expect("fits");
     let mut recorder = Recorder::default();
     let seen = MeshView { camera: &camera, grid: &grid, look };

@@ -7,9 +7,9 @@ use glam::{DMat4, DQuat, DVec3, Vec4};
 use octolume::gpu::Job;
 use octolume::scene::{AlphaMode, LocalTransform, Material, Node, Scene, Texture, TextureRef, Trs, Wrap};
 use octolume::settings::{ColorBy, Look};
-use octolume::stages::view::camera::PixelRays;
+use octolume::stages::pixels::camera::PixelRays;
+use octolume::stages::pixels::{AMBIENT, NO_DEPTH};
 use octolume::stages::view::palette::legend_object;
-use octolume::stages::view::{AMBIENT, NO_DEPTH};
 
 use crate::device::{gpu, open};
 

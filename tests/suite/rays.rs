@@ -4,7 +4,7 @@
 use glam::{DVec3, IVec3, Vec3};
 use octolume::gpu::{Job, Recorder};
 use octolume::stages::SHADERS;
-use octolume::stages::view::march_ref::crossings;
+use octolume::stages::pixels::crossings::crossings;
 use proptest::prelude::*;
 
 use crate::device::gpu;

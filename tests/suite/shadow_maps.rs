@@ -17,7 +17,7 @@ use octolume::stages::light::illuminate::{self, LightParams};
 use octolume::stages::light::illuminate_ref::{self, Source};
 use octolume::stages::light::shadow::{ShadowMap, ShadowParams};
 use octolume::stages::mesh::{MeshScene, PosedMesh, Textures};
-use octolume::stages::view::NO_DEPTH;
+use octolume::stages::pixels::NO_DEPTH;
 
 use crate::device::gpu;
 use crate::light_rig::{LightRig, full, grid, light, point, sun};

@@ -6,11 +6,12 @@ use octolume::gpu::Recorder;
 use octolume::scene::OrbitCamera;
 use octolume::settings::lighting::Opacity;
 use octolume::settings::{AlphaRule, ColorBy, Filter, Lookup, Sampling, Slice, SliceAxis, SliceValue};
+use octolume::stages::pixels::camera::{PixelRay, PixelRays};
+use octolume::stages::pixels::{BACKGROUND, NO_DEPTH, Picture, ViewParams};
 use octolume::stages::sample::sample_points_ref::LitNodes;
-use octolume::stages::view::camera::{PixelRay, PixelRays};
 use octolume::stages::view::palette::legend_value;
 use octolume::stages::view::slice_ref::{self, meeting, share, value};
-use octolume::stages::view::{BACKGROUND, NO_DEPTH, Palette, Picture, ViewParams, slice};
+use octolume::stages::view::{Palette, slice};
 
 use crate::device::gpu;
 use crate::lit_octree::LitBuild;

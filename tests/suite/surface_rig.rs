@@ -15,10 +15,11 @@ use octolume::stages::light::LitOctree;
 use octolume::stages::light::illuminate::LightParams;
 use octolume::stages::light::shadow::{ShadowMap, ShadowParams};
 use octolume::stages::mesh::{MeshScene, PosedMesh, Textures};
+use octolume::stages::pixels::camera::PixelRays;
+use octolume::stages::pixels::projection;
+use octolume::stages::pixels::{NO_DEPTH, ViewParams, picture};
 use octolume::stages::surface::draw::{self, Seen};
 use octolume::stages::surface::{Lit, direct, direct_march, emission};
-use octolume::stages::view::camera::PixelRays;
-use octolume::stages::view::{NO_DEPTH, ViewParams, mesh, picture};
 
 use crate::device::gpu;
 use crate::stage_rig::{buffer, read, run};
@@ -74,7 +75,7 @@ impl<'a> Shot<'a> {
         let mesh = uploaded(gpu, self.scene);
         let image = SurfaceImage::new(gpu, self.size_px).expect("fits");
         let depth = picture::depth_buffer(gpu, self.size_px).expect("fits");
-        let camera_from_world = mesh::camera_from_world(&self.camera, &self.grid);
+        let camera_from_world = projection::camera_from_world(&self.camera, &self.grid);
         let of_pose = (&self.pose, &Hidden::default());
         let posed = PosedMesh::new(gpu, &mesh, &mut Slot::default(), of_pose, &camera_from_world).expect("fits");
         let mut frame = Recorder::default();

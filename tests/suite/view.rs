@@ -10,11 +10,13 @@ use octolume::data::packing::pack_normal;
 use octolume::gpu::Recorder;
 use octolume::scene::OrbitCamera;
 use octolume::settings::{AlphaRule, ColorBy, Look};
-use octolume::stages::view::camera::{PixelRay, PixelRays};
+use octolume::stages::pixels::camera::{PixelRay, PixelRays};
+use octolume::stages::pixels::crossings::crossings;
+use octolume::stages::pixels::{BACKGROUND, LEAST_LIGHT, NO_DEPTH, Picture, ViewParams};
 use octolume::stages::view::ghost::{self, LeafSet};
 use octolume::stages::view::march::MarchedOctree;
-use octolume::stages::view::march_ref::{self, crossings};
-use octolume::stages::view::{BACKGROUND, GHOST_COLORS, LEAST_LIGHT, NO_DEPTH, Picture, ViewParams, ghost_ref};
+use octolume::stages::view::march_ref;
+use octolume::stages::view::{GHOST_COLORS, ghost_ref};
 
 use crate::device::{gpu, open};
 use crate::plain_octree::{Leaf, PlainOctree};

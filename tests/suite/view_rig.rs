@@ -11,13 +11,12 @@ use octolume::data::packing::pack_normal;
 use octolume::gpu::{Gpu, Job, Recorder};
 use octolume::scene::OrbitCamera;
 use octolume::settings::{AlphaRule, ColorBy, Look};
-use octolume::stages::view::camera::{PixelRay, PixelRays};
+use octolume::stages::pixels::camera::{PixelRay, PixelRays};
+use octolume::stages::pixels::{BACKGROUND, LEAST_LIGHT, NO_DEPTH, Picture, ViewParams, shown_color, shown_level};
+use octolume::stages::view::Palette;
 use octolume::stages::view::march::{self, MarchedOctree};
 use octolume::stages::view::march_ref::{self, Rules, Shown};
 use octolume::stages::view::palette::{legend_object, legend_value};
-use octolume::stages::view::{
-    BACKGROUND, LEAST_LIGHT, NO_DEPTH, Palette, Picture, ViewParams, shown_color, shown_level,
-};
 
 use crate::plain_octree::{Leaf, PlainOctree};
 

@@ -5,7 +5,7 @@ use image::{Rgb, RgbImage};
 use super::{LightPixel, light_of};
 use crate::color::srgb_byte;
 use crate::settings::{Look, SurfaceView, ToneCurve};
-use crate::stages::view::MEAN_SHOWN_AS;
+use crate::stages::pixels::MEAN_SHOWN_AS;
 use crate::stages::view::show_surfaces::tone_mapped;
 
 /// Exposed further, every tone curve is at its end.

@@ -9,7 +9,7 @@ use super::tracing::Traced;
 use crate::accuracy::picture_error::{LightPixel, Shown, difference_map, difference_scale};
 use crate::color::srgb_byte;
 use crate::settings::SurfaceView;
-use crate::stages::view::BACKGROUND;
+use crate::stages::pixels::BACKGROUND;
 
 /// A finished picture of the engine, as light.
 pub struct ConePicture {

@@ -9,9 +9,9 @@ use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 use crate::plan::{Key, Keys, Part, Pass, calls_for};
 use crate::settings::{Look, Lookup};
 use crate::stages::mesh::PosedMesh;
+use crate::stages::pixels::ViewParams;
+use crate::stages::pixels::camera::PixelRays;
 use crate::stages::sample::pointer_layout;
-use crate::stages::view::ViewParams;
-use crate::stages::view::camera::PixelRays;
 
 #[derive(Clone, Copy)]
 pub struct Making<'a> {

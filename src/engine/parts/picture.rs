@@ -7,14 +7,16 @@ use crate::gpu::{GpuBuffer, GpuError, GpuTexture, Recorder};
 use crate::plan::{Part, Pass, light_shown, shows_light};
 use crate::settings::{ColorBy, Look, View};
 use crate::stages::light::LitOctree;
+use crate::stages::pixels::picture::depth_buffer;
+use crate::stages::pixels::projection::camera_from_world;
+use crate::stages::pixels::{Picture, shown_color};
 use crate::stages::sample::SampledOctree;
 use crate::stages::view::ghost::{self, LeafSet};
 use crate::stages::view::march::{self, MarchedOctree};
 use crate::stages::view::march_light::{self, Exposure};
-use crate::stages::view::mesh::{self, MeshTarget, MeshView, camera_from_world};
-use crate::stages::view::picture::depth_buffer;
+use crate::stages::view::mesh::{self, MeshTarget, MeshView};
 use crate::stages::view::show_surfaces::{self, ShowSurfacesParams, ShownExposure};
-use crate::stages::view::{GHOST_COLORS, Palette, Picture, show_shadow, shown_color, slice};
+use crate::stages::view::{GHOST_COLORS, Palette, show_shadow, slice};
 
 #[derive(Debug, Default)]
 pub struct Drawn {

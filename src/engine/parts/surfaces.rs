@@ -12,10 +12,10 @@ use crate::settings::lighting::Shadows;
 use crate::stages::cones::image_bytes;
 use crate::stages::light::LitOctree;
 use crate::stages::light::shadow::ShadowMap;
+use crate::stages::pixels::picture::depth_buffer;
+use crate::stages::pixels::projection::camera_from_world;
 use crate::stages::surface::draw::{self, Seen};
 use crate::stages::surface::{Lit, direct, direct_march, emission};
-use crate::stages::view::mesh::camera_from_world;
-use crate::stages::view::picture::depth_buffer;
 
 #[derive(Debug, Default)]
 pub struct Surfaces {

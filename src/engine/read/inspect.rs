@@ -13,8 +13,8 @@ use crate::data::light::LIGHT_BYTES;
 use crate::gpu::GpuError;
 use crate::plan::Part;
 use crate::settings::View;
-use crate::stages::view::camera::PixelRays;
-use crate::stages::view::shown_level;
+use crate::stages::pixels::camera::PixelRays;
+use crate::stages::pixels::shown_level;
 
 /// A node that a pointer leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -4,7 +4,7 @@ use super::super::{Engine, EngineError, PassTiming};
 use super::missing;
 use crate::color::srgb_byte;
 use crate::gpu::GpuTexture;
-use crate::stages::view::BACKGROUND;
+use crate::stages::pixels::BACKGROUND;
 
 impl Engine {
     /// The picture, gamma-encoded sRGB; `None` before the first, and where nothing is to be seen.

@@ -6,7 +6,8 @@ use super::super::{Engine, PassTiming};
 use crate::color::luminance;
 use crate::plan::{Keys, Part, light_shown, tells_mean_light};
 use crate::settings::{SurfaceView, View};
-use crate::stages::view::{MEAN_SHOWN_AS, slice};
+use crate::stages::pixels::MEAN_SHOWN_AS;
+use crate::stages::view::slice;
 
 impl Engine {
     /// Of a frame that has just been finished, by the keys of its methods.

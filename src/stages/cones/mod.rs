@@ -23,11 +23,11 @@ pub mod specular_ref;
 pub mod upsample;
 pub mod upsample_ref;
 
+use super::pixels::picture::tiled_threads;
+pub use super::pixels::picture::{TILE_PX, tile_count};
 use super::sample::SampledOctree;
 use super::surface::RADIANCE_BYTES;
 pub use super::surface::Surfaces;
-use super::view::picture::tiled_threads;
-pub use super::view::picture::{TILE_PX, tile_count};
 use crate::gpu::{Constant, constants};
 
 /// A filter's weights below this are none.

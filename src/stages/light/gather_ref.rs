@@ -10,8 +10,8 @@ use glam::{DMat3, DVec3};
 
 use super::gather::Cones;
 use crate::settings::Sampling;
+use crate::stages::pixels::SHORT_NORMAL;
 use crate::stages::sample::sample_points_ref::{Horizon, LitNodes};
-use crate::stages::view::SHORT_NORMAL;
 
 /// Means over cones.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

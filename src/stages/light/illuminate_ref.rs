@@ -7,7 +7,7 @@
 use glam::{DVec3, IVec3};
 
 use super::{LEAST_DISTANCE_CELLS, SPREAD_COSINE};
-use crate::stages::view::march_ref::crossings;
+use crate::stages::pixels::crossings::crossings;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {

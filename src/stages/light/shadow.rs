@@ -14,7 +14,7 @@ use crate::gpu::{
 use crate::lights::PosedLight;
 use crate::scene::{Aabb, LightKind};
 use crate::stages::mesh::PosedMesh;
-use crate::stages::view::NO_DEPTH;
+use crate::stages::pixels::NO_DEPTH;
 
 pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 /// Wider spots are mapped like point lights.

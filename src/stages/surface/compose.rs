@@ -10,7 +10,7 @@ use super::{RADIANCE_BYTES, Surfaces};
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{Constant, Gpu, GpuBuffer, Mirror, Recorder, constants, mirror};
 use crate::settings::SurfaceView;
-use crate::stages::view::ViewParams;
+use crate::stages::pixels::ViewParams;
 
 pub const TERM_FINAL: u32 = 0;
 pub const TERM_DIRECT: u32 = 1;

@@ -4,7 +4,7 @@
 //! [`SurfaceImage`]. Opaque surfaces hide one another; MASK cuts out by its cutoff, BLEND is there in a share
 //! of the pixels. Both sides of every triangle are drawn, with normals on the side of the eye.
 //!
-//! [`camera_from_world`]: crate::stages::view::mesh::camera_from_world
+//! [`camera_from_world`]: crate::stages::pixels::projection::camera_from_world
 
 use bytemuck::{Pod, Zeroable};
 
@@ -13,8 +13,8 @@ use crate::data::surface_image::{FORMAT, SurfaceImage};
 use crate::gpu::{Gpu, GpuTexture, Mirror, RasterTarget, Recorder, mirror};
 use crate::scene::OrbitCamera;
 use crate::stages::mesh::PosedMesh;
-use crate::stages::view::NO_DEPTH;
-use crate::stages::view::mesh::{clip_from_camera, padded_axes};
+use crate::stages::pixels::NO_DEPTH;
+use crate::stages::pixels::projection::{clip_from_camera, padded_axes};
 
 /// Mirror of `SurfaceParams` in shaders/surface/draw.wgsl.
 #[repr(C)]
@@ -48,7 +48,7 @@ pub struct Seen<'a> {
     pub emission: f64,
 }
 
-/// `depth`: as large as the image, from [`crate::stages::view::picture::depth_buffer`].
+/// `depth`: as large as the image, from [`crate::stages::pixels::picture::depth_buffer`].
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,

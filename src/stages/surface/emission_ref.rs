@@ -1,7 +1,7 @@
 //! Reference of `emission.wgsl`: the sum before any light.
 
 use crate::data::surface_image::SurfaceTexel;
-use crate::stages::view::NO_DEPTH;
+use crate::stages::pixels::NO_DEPTH;
 
 /// Nits, and 1 where a surface is.
 pub fn emission(texel: &SurfaceTexel) -> [f64; 4] {

@@ -1,6 +1,6 @@
 //! Reference of `mean_luminance.wgsl`: the mean of logarithms that were summed in parts, and the exposure by it.
 
-use crate::stages::view::MEAN_SHOWN_AS;
+use crate::stages::pixels::MEAN_SHOWN_AS;
 
 /// The geometric mean from sums of log2 and counts; `None` where nothing shines.
 pub fn mean_luminance(sums: &[[f32; 2]]) -> Option<f64> {

@@ -26,8 +26,8 @@ pub mod sum_luminance_ref;
 
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{Constant, GpuBuffer, Kernel, PassBuilder, constants};
-use crate::stages::view::ViewParams;
-use crate::stages::view::picture::tiled_threads;
+use crate::stages::pixels::ViewParams;
+use crate::stages::pixels::picture::tiled_threads;
 
 /// Reflectance at normal incidence of what is no metal (glTF 2.0, appendix B.3.3).
 pub const DIELECTRIC_REFLECTANCE: f64 = 0.04;

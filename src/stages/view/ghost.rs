@@ -1,8 +1,9 @@
 //! Shows the moved leaves over the exact ones: holes, spill, and what both have.
 
-use super::{GhostColors, Picture, ViewParams};
+use super::GhostColors;
 use crate::data::octree::OctreeSizes;
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
+use crate::stages::pixels::{Picture, ViewParams};
 
 /// Leaf bits and the masks of all levels above them (`occupied`) of one set of leaves.
 #[derive(Clone, Debug)]

@@ -1,9 +1,10 @@
 //! Shows the octree: one ray a pixel, occupancy as alpha (Fig. 8).
 
-use super::{Palette, Picture, ViewParams};
+use super::Palette;
 use crate::data::octree::{OctreeRef, OctreeSizes};
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 use crate::stages::fill::ranked::RankedLeaves;
+use crate::stages::pixels::{Picture, ViewParams};
 
 /// What marching reads of an octree.
 #[derive(Clone, Debug)]

@@ -2,9 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{Picture, ViewParams};
 use crate::gpu::{Gpu, GpuBuffer, Mirror, Recorder, mirror};
 use crate::stages::light::LitOctree;
+use crate::stages::pixels::{Picture, ViewParams};
 
 /// Mirror of `ExposureParams` in shaders/view/march_light.wgsl.
 #[repr(C)]
@@ -20,7 +20,7 @@ pub const MIRRORS: &[Mirror] = &[mirror!(ExposureParams, "view/march_light.wgsl"
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
     Set(f64),
-    /// The mean of all light that is stored is shown as [`super::MEAN_SHOWN_AS`]; 1 where there is none.
+    /// The mean of all light that is stored is shown as [`crate::stages::pixels::MEAN_SHOWN_AS`]; 1 where there is none.
     OfMean,
 }
 

@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use super::MEAN_SHOWN_AS;
 use super::march_ref::Shown;
 use crate::color::luminance;
+use crate::stages::pixels::MEAN_SHOWN_AS;
 
 /// `stored`: light times opacity, and opacity, above zero. Not shaded: light is what it is.
 pub fn shown(stored: [f64; 4], factor: f64) -> Shown {

@@ -3,17 +3,19 @@
 //! In: the posed mesh in the camera's axes, in cells. Out: as the march.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DMat3, DMat4, DVec3};
 
-use super::camera::PixelRays;
-use super::picture::{COLOR_FORMAT, DISTANCE_FORMAT};
-use super::{BACKGROUND, NO_DEPTH, Palette, Picture, ViewParams};
+use super::Palette;
 use crate::color::gamma_from_linear;
 use crate::data::grid::Grid;
 use crate::gpu::{Gpu, GpuTexture, Mirror, RasterTarget, Recorder, mirror};
 use crate::scene::OrbitCamera;
 use crate::settings::Look;
 use crate::stages::mesh::PosedMesh;
+use crate::stages::pixels::camera::PixelRays;
+use crate::stages::pixels::picture::{COLOR_FORMAT, DISTANCE_FORMAT};
+use crate::stages::pixels::projection::{clip_from_camera, padded_axes};
+use crate::stages::pixels::shown_color;
+use crate::stages::pixels::{BACKGROUND, NO_DEPTH, Picture, ViewParams};
 
 /// Mirror of `MeshParams` in shaders/view/mesh.wgsl.
 #[repr(C)]
@@ -31,7 +33,7 @@ pub const MIRRORS: &[Mirror] =
 #[derive(Clone, Copy, Debug)]
 pub struct MeshTarget<'a> {
     pub picture: &'a Picture,
-    /// As large, from [`super::picture::depth_buffer`].
+    /// As large, from [`crate::stages::pixels::picture::depth_buffer`].
     pub depth: &'a GpuTexture,
 }
 
@@ -51,7 +53,7 @@ pub fn record(gpu: &Gpu, frame: &mut Recorder, posed: &PosedMesh<'_>, seen: Mesh
     let depth = seen.grid.depth;
     let view = frame.uniform(&ViewParams::new(&PixelRays::new(seen.camera, seen.grid, size_px), seen.look, depth));
     let mesh = frame.uniform(&mesh_params(seen, size_px));
-    let palette = frame.uniform(&Palette::new(super::shown_color(seen.look, depth)));
+    let palette = frame.uniform(&Palette::new(shown_color(seen.look, depth)));
     for draw in posed.draws() {
         let kernel = gpu.raster_kernel("view/mesh.wgsl", draw.entry(), &[COLOR_FORMAT, DISTANCE_FORMAT]);
         draw.bind(frame.triangles(&kernel))
@@ -60,23 +62,6 @@ pub fn record(gpu: &Gpu, frame: &mut Recorder, posed: &PosedMesh<'_>, seen: Mesh
             .shared("palette", &palette)
             .draw(draw.vertices());
     }
-}
-
-/// Where the triangles are drawn: the camera's axes, cells.
-pub fn camera_from_world(camera: &OrbitCamera, grid: &Grid) -> DMat4 {
-    DMat4::from_scale(DVec3::splat(1.0 / grid.span)) * camera.camera_from_world()
-}
-
-/// From that space to the picture's; depth is reversed.
-pub fn clip_from_camera(camera: &OrbitCamera, grid: &Grid, size_px: [u32; 2]) -> DMat4 {
-    let projection = camera.projection(f64::from(size_px[0]) / f64::from(size_px[1]));
-    projection * DMat4::from_scale(DVec3::splat(grid.span))
-}
-
-/// The camera's axes in the world, a column each, padded to four.
-pub fn padded_axes(camera: &OrbitCamera) -> [[f32; 4]; 3] {
-    let axes = DMat3::from_mat4(camera.world_from_camera());
-    [0, 1, 2].map(|column| axes.col(column).as_vec3().extend(0.0).to_array())
 }
 
 fn mesh_params(seen: MeshView<'_>, size_px: [u32; 2]) -> MeshParams {

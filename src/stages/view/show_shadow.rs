@@ -2,9 +2,10 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{Palette, Picture, ViewParams};
+use super::Palette;
 use crate::gpu::{Gpu, Mirror, Recorder, mirror};
 use crate::stages::light::shadow::ShadowMap;
+use crate::stages::pixels::{Picture, ViewParams};
 
 /// Mirror of `ShowShadowParams` in shaders/view/show_shadow.wgsl.
 #[repr(C)]

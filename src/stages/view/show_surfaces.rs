@@ -2,10 +2,11 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{Palette, Picture, ViewParams};
+use super::Palette;
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{Constant, Gpu, GpuBuffer, Mirror, Recorder, constants, mirror};
 use crate::settings::{SurfaceView, ToneCurve};
+use crate::stages::pixels::{Picture, ViewParams};
 use crate::stages::surface::mean_luminance::PictureExposure;
 
 pub const SHOWS_VALUE: u32 = 0;

@@ -2,10 +2,11 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{Palette, Picture, ViewParams};
+use super::Palette;
 use crate::gpu::{Constant, Gpu, Mirror, Recorder, constants, mirror};
 use crate::settings::lighting::Opacity;
 use crate::settings::{Sampling, Slice, SliceAxis, SliceValue};
+use crate::stages::pixels::{Picture, ViewParams};
 use crate::stages::sample::{SampledOctree, Sampler};
 
 pub const SLICE_OCCUPANCY: u32 = 1;

@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 
-use super::camera::PixelRay;
 use super::march_light_ref;
 use crate::color::luminance;
 use crate::settings::{Sampling, Slice, SliceAxis, SliceValue};
+use crate::stages::pixels::camera::PixelRay;
 use crate::stages::sample::sample_points_ref::{LitNodes, Sampled};
 
 /// Distance along the ray and the place, cells; `None` beside the grid, behind, and for rays along the

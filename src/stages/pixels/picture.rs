@@ -35,7 +35,7 @@ impl Picture {
     }
 
     /// By the names in shaders/shared/store_pixel.wgsl.
-    pub(super) fn bind<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
+    pub(in crate::stages) fn bind<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
         pass.texture("picture", self.color.view()).texture("depth", self.distance.view())
     }
 
