@@ -9,14 +9,14 @@ use octolume::data::surface_image::SurfaceTexel;
 use octolume::scene::OrbitCamera;
 use octolume::settings::lighting::Opacity;
 use octolume::settings::{ConeTracing, Filter, Lookup};
-use octolume::stages::cones::diffuse::{DiffuseCones, DiffuseTerms};
+use octolume::stages::cones::diffuse::DiffuseCones;
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::pixels::LEAST_LIGHT;
 use octolume::stages::sample::Sampler;
 use serde::{Deserialize, Serialize};
 
 use crate::cone_gloss::reflected;
-use crate::cone_light::scattered;
+use crate::cone_light::{BOTH, scattered};
 use crate::cone_rig::{NOTHING, Photo, SPOT_PX, diffuse, dull, mean, plane_distance, spot};
 use crate::device::gpu;
 use crate::doc_tables::measured;
@@ -33,7 +33,6 @@ const FLOOR: i64 = 9;
 /// How near the known error of a form is met: half of the last place it is written with, LEAST_LIGHT that cones
 /// leave, and roundings of 256 places on a ray, 2^-24 of 64 cells each, where opacity changes by 3 a cell.
 const FORM_SLACK: f64 = 0.0005 + LEAST_LIGHT + 3.0 * 256.0 * 64.0 * f32::EPSILON as f64 / 2.0;
-const BOTH: DiffuseTerms = DiffuseTerms { radiance: true, occlusion: true };
 
 const COMMAND: &str = "cargo test --test suite cone_forms";
 

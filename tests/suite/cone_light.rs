@@ -149,11 +149,10 @@ fn every_look_up_traces_the_same_bits() {
     let octree = random_octree(31, 1500);
     let photo = scattered();
     let cones = DiffuseCones::new(&ConeTracing::default(), 1 << DEPTH, 0.25);
-    let terms = DiffuseTerms { radiance: true, occlusion: true };
     let bits = [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers].map(|lookup| {
         let sampler = Sampler { lookup, ..Sampler::default() };
         let input = (&octree.sampled(lookup), &sampler);
-        bytemuck::pod_collect_to_vec::<[f32; 4], u32>(&diffuse(gpu(), input, &photo, (&cones, terms), (SKY, SIZE_PX)))
+        bytemuck::pod_collect_to_vec::<[f32; 4], u32>(&diffuse(gpu(), input, &photo, (&cones, BOTH), (SKY, SIZE_PX)))
     });
     assert!(bits[0] == bits[1] && bits[0] == bits[2]);
 }

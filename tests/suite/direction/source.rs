@@ -36,7 +36,7 @@ fn collect(folder: &Path, names: &[String], sources: &mut Vec<(Module, String)>)
     for entry in listing {
         let path = entry.expect("a listed file").path();
         let stem = path.file_stem().expect("a name").to_string_lossy().into_owned();
-        let inner = [names, &[stem.clone()]].concat();
+        let inner = [names, std::slice::from_ref(&stem)].concat();
         if path.is_dir() {
             collect(&path, &inner, sources);
         } else if path.extension().is_some_and(|extension| extension == "rs") {
