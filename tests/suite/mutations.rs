@@ -115,7 +115,7 @@ fn defects_of_gathering_are_caught() {
         assert_caught("light/gather.wgsl", check, &[change]);
     };
     caught(Gathered::Bounce, ("center + cone.shape.start_cells * n", "center"));
-    caught(Gathered::Bounce, ("(f32(i) + 0.5) / f32(count)", "f32(i) / f32(count)"));
+    caught(Gathered::Bounce, ("(sum.through - through) / seen.w * seen.xyz", "(sum.through - through) * seen.xyz"));
     caught(Gathered::Sky, ("select(0.0, irradiance[place], SKY)", "0.0"));
     let halves = ("PI * 0.5 * (mean_radiance(center, up)", "PI * (mean_radiance(center, up)");
     assert_caught("light/gather.wgsl", check_cloth, &[halves]);
@@ -145,7 +145,7 @@ fn defects_of_illumination_are_caught() {
 fn defects_of_injection_and_averaging_are_caught() {
     let injected = [
         ("/ 255.0 * INVERSE_PI * arriving", "/ 255.0 * arriving"),
-        ("leaving += params.emission_nits * emitted;", "leaving += emitted;"),
+        ("leaving += params.emission_nits * emitted;", "leaving += 2.0 * params.emission_nits * emitted;"),
         ("vec4<f32>(leaving * opacity, opacity)", "vec4<f32>(leaving, opacity)"),
         ("f32(leaves[3u * slot]) / f32(FULL_WEIGHT)", "1.0"),
     ];
