@@ -65,7 +65,7 @@ impl Measured {
     pub fn new(prepared: &Arc<Prepared>, settings: &Settings, measure: Measure) -> Self {
         let shown = &settings.look;
         let look = match measure {
-            Measure::Kernels => Look { view: View::Voxels, accuracy: false, ..shown.clone() },
+            Measure::Kernels => Look { view: View::Voxels, accuracy: false, ..*shown },
             Measure::Surfaces => Look { camera: shown.camera, ..Look::default() },
             Measure::Light | Measure::Voxels | Measure::Shadows => Look::default(),
         };
