@@ -14,7 +14,7 @@ const KEYWORD: &str = "octolume-settings";
 
 /// Writes a picture with 8-bit sRGB colours and the settings that made it.
 pub fn write_png(file: &Path, picture: &RgbaImage, settings: &Settings) -> Result<(), ExportError> {
-    let settings = serde_json::to_string(settings).map_err(|error| ExportError::new(file, error))?;
+    let settings = settings.to_json().map_err(|error| ExportError::new(file, error))?;
     let bytes = encode(picture, settings).map_err(|error| ExportError::new(file, error))?;
     write_file(file, &bytes)
 }
@@ -41,8 +41,7 @@ pub fn read_settings(file: &Path) -> Result<(Settings, Option<[u32; 2]>), Export
         true => settings_of_png(&bytes).map_err(failed)?,
         false => (String::from_utf8(bytes).map_err(|_| failed("neither JSON nor PNG".to_owned()))?, None),
     };
-    let settings: Settings = serde_json::from_str(&json).map_err(|error| failed(format!("settings: {error}")))?;
-    settings.check().map_err(failed)?;
+    let settings = Settings::from_json(&json).map_err(failed)?;
     Ok((settings, size_px))
 }
 
@@ -57,10 +56,13 @@ fn settings_of_png(bytes: &[u8]) -> Result<(String, Option<[u32; 2]>), String> {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
     use image::Rgba;
 
     use super::*;
-    use crate::settings::{ColorBy, View};
+    use crate::scene::{LightKind, OrbitCamera};
+    use crate::settings::lighting::{AddedLight, LightEdit, Shadows, SunShines};
+    use crate::settings::{ColorBy, Filter, View};
 
     fn picture() -> RgbaImage {
         RgbaImage::from_fn(5, 3, |x, y| Rgba([x as u8, y as u8, 7, 255]))
@@ -84,14 +86,27 @@ mod tests {
         assert_eq!(image::open(&file).unwrap().to_rgba8(), picture());
     }
 
+    /// Every picture and JSON written so far opens: of each format one is kept.
     #[test]
-    fn a_json_file_sets_what_it_names() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("settings.json");
-        std::fs::write(&file, r#"{"discretization": {"grid": 256}}"#).unwrap();
-        let (settings, size_px) = read_settings(&file).unwrap();
-        assert_eq!((settings.discretization.grid, size_px), (256, None));
-        assert_eq!(settings.look, Settings::default().look);
+    fn what_was_written_before_is_read_as_it_was_meant() {
+        let saved = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/saved");
+        let (settings, size_px) = read_settings(&saved.join("format-1.png")).unwrap();
+        assert_eq!(size_px, Some([96, 54]));
+        assert_eq!(read_settings(&saved.join("format-1.json")).unwrap(), (settings.clone(), None));
+        let mut expected = Settings::default();
+        (expected.discretization.grid, expected.discretization.dense_level) = (64, 3);
+        expected.discretization.filter = Filter::Nearest;
+        (expected.motion.time_secs, expected.motion.turn_degrees) = (1.25, [0.0, 20.0, 0.0]);
+        (expected.look.color, expected.look.exposure_stops) = (ColorBy::Radiance, Some(-1.0));
+        let (eye, target) = (DVec3::new(6.0, 4.0, 9.0), DVec3::new(0.0, 1.0, 0.0));
+        expected.look.camera = Some(OrbitCamera { eye, target, fov_y_degrees: 45.0 });
+        let lighting = &mut expected.lighting;
+        lighting.sun.shines = SunShines::Never;
+        (lighting.sky_nits, lighting.shadows) = ([0.5, 0.7, 1.0], Shadows::March);
+        let light = LightEdit { intensity: 80.0, ..LightEdit::new(LightKind::POINT) };
+        let lamp = AddedLight { position: [0.0, 3.0, 0.0], light, ..AddedLight::new("light 1".to_owned(), light.kind) };
+        lighting.added = vec![lamp];
+        assert_eq!(settings, expected);
     }
 
     #[test]

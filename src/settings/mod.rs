@@ -3,6 +3,7 @@
 
 mod cone_tracing;
 mod discretization;
+mod format;
 mod light_edit;
 mod light_names;
 pub mod lighting;
@@ -15,6 +16,7 @@ mod visibility;
 use serde::{Deserialize, Serialize};
 
 pub use cone_tracing::ConeTracing;
+pub use format::FORMAT;
 pub use discretization::{Discretization, Filter, VoxelAnchor, VoxelizationMode};
 pub use light_names::{LightChange, LightError};
 pub use lighting::Lighting;
