@@ -87,7 +87,7 @@ impl Measured {
 }
 
 /// What the window shows in a frame.
-pub struct Shown<'a> {
+pub struct ShownScene<'a> {
     pub gpu: &'a Arc<Gpu>,
     pub prepared: &'a Arc<Prepared>,
     pub settings: &'a Settings,
@@ -138,7 +138,7 @@ impl Measuring {
     }
 
     /// Once a frame, after the picture: sentences for the log, and an error as the last one.
-    pub fn follow(&mut self, ctx: &egui::Context, shown: &Shown<'_>) -> (Vec<String>, Result<(), String>) {
+    pub fn follow(&mut self, ctx: &egui::Context, shown: &ShownScene<'_>) -> (Vec<String>, Result<(), String>) {
         if std::mem::take(&mut self.is_ordered) {
             let measured = Measured::new(shown.prepared, shown.settings, self.measure);
             self.running = Some(measured.begin(shown.gpu, self.runs));
@@ -211,7 +211,7 @@ impl App {
         // The picture first.
         let is_shared = stage.working().is_some() || self.latency.is_under_input();
         let budget = if is_shared { stage.pace.budget_under_input } else { stage.pace.budget };
-        let shown = Shown { gpu: stage.engine.gpu(), prepared, settings, budget };
+        let shown = ShownScene { gpu: stage.engine.gpu(), prepared, settings, budget };
         let (sentences, outcome) = self.desk.measuring.follow(ctx, &shown);
         sentences.into_iter().for_each(|sentence| self.journal.note(Severity::Warning, sentence));
         if let Err(error) = outcome {

@@ -8,7 +8,7 @@ use super::command::Command;
 use super::exact_job::Posed;
 use super::journal::Severity;
 use super::node_overlay::{self, Projection};
-use super::reference::{Seen, Shown};
+use super::reference::{Seen, ShownSurfaces};
 use super::screenshots::{Content, Format};
 use super::{App, PROGRESS_STEP, exact_job, legend, theme, viewport};
 use crate::gpu::GpuTexture;
@@ -92,7 +92,7 @@ impl App {
         let Some(ready) = &self.scene else { return };
         let stage = &self.stage;
         let is_full = stage.picture().map(GpuTexture::size_px) == Some(full_px) && !stage.engine.shows_nothing();
-        let shown = Shown {
+        let shown = ShownSurfaces {
             seen: Seen { prepared: Arc::clone(&ready.prepared), settings: settings.clone(), size_px: full_px },
             disk: self.loader.disk(),
             engine: &stage.engine,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use clap::Args;
 use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Term};
-use octolume::accuracy::picture_error::Shown;
+use octolume::accuracy::picture_error::Display;
 use octolume::disk_cache::DiskCache;
 use octolume::experiment::{Traced, traced};
 use octolume::export;
@@ -84,6 +84,6 @@ fn write(film: &Film, settings: &Settings, file: &Path) -> anyhow::Result<()> {
     if output::is_exr(file) {
         return Ok(export::write_exr(file, film.size_px(), &light)?);
     }
-    let picture = Shown::new(&settings.look, part, &light).picture(&light, film.size_px());
+    let picture = Display::new(&settings.look, part, &light).picture(&light, film.size_px());
     Ok(export::write_png(file, &image::DynamicImage::from(picture).into_rgba8(), settings)?)
 }

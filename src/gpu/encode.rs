@@ -11,7 +11,7 @@ use wgpu_profiler::{GpuProfiler, GpuProfilerQuery};
 use super::bindings::buffer_binding;
 use super::mirror::{Mirror, mirror};
 use super::read_back::ReadBack;
-use super::recorder::{Command, Pass, UNIFORM_ALIGNMENT};
+use super::recorder::{Command, ComputePass, UNIFORM_ALIGNMENT};
 use super::scratch::{LABEL, Piece, Scratch, end_query};
 use super::{Gpu, GpuBuffer, GpuError, encode_raster, raster};
 
@@ -81,7 +81,7 @@ fn write_ranges(gpu: &Gpu, pieces: &[Piece], scratch: &Scratch) -> Result<(), Gp
 fn encode_pass(
     gpu: &Gpu,
     encoder: &mut wgpu::CommandEncoder,
-    pass: &Pass,
+    pass: &ComputePass,
     piece: &Piece,
     index: usize,
     scratch: &Scratch,
@@ -128,7 +128,7 @@ fn encode_transfer(encoder: &mut wgpu::CommandEncoder, command: &Command, piece:
 }
 
 /// Workgroups of a range, in two dimensions once one has too few.
-fn folded_groups(gpu: &Gpu, pass: &Pass, piece: &Piece) -> Result<[u32; 2], GpuError> {
+fn folded_groups(gpu: &Gpu, pass: &ComputePass, piece: &Piece) -> Result<[u32; 2], GpuError> {
     let size = u64::from(pass.kernel.workgroup_size[0]);
     let limit = u64::from(gpu.limits.max_compute_workgroups_per_dimension);
     let groups = (piece.end - piece.first).div_ceil(size);

@@ -9,7 +9,7 @@ use super::bindings::{Bound, Resource};
 use super::counted::{Counted, CountedBy};
 use super::kernel::Kernel;
 use super::raster::RasterKernel;
-use super::recorder::{Command, Draw, Pass, Recorder, Uniform};
+use super::recorder::{Command, ComputePass, Draw, Recorder, Uniform};
 use super::{GpuBuffer, GpuError};
 
 /// Names what a kernel reads and writes.
@@ -99,7 +99,7 @@ impl PassBuilder<'_, Kernel> {
                 cause: "thread numbers have 32 bits".to_owned(),
             };
             let threads = u32::try_from(threads).map_err(refused)?;
-            Ok(Command::Pass(Pass { kernel, bound, threads, bytes_moved, counted }))
+            Ok(Command::Pass(ComputePass { kernel, bound, threads, bytes_moved, counted }))
         });
         recorder.push(pass);
     }

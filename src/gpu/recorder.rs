@@ -36,14 +36,14 @@ pub struct Uniform(pub(super) Range<u64>);
 
 #[derive(Debug)]
 pub(super) enum Command {
-    Pass(Pass),
+    Pass(ComputePass),
     Raster { target: RasterTarget, draws: Vec<Draw> },
     Clear { buffer: GpuBuffer, bytes: u64 },
     Copy { from: GpuBuffer, from_offset: u64, to: GpuBuffer, to_offset: u64, bytes: u64 },
 }
 
 #[derive(Debug)]
-pub(super) struct Pass {
+pub(super) struct ComputePass {
     pub kernel: Arc<Kernel>,
     pub bound: Bound,
     pub threads: u32,

@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
-use super::kept::{Lookup, TextureHashes};
+use super::kept::{Kept, TextureHashes};
 use super::{PrepareError, Prepared, PreparedObject, lattice};
 use crate::data::voxel_cache::VoxelCache;
 use crate::disk_cache::{ContentKey, DiskCache};
@@ -37,7 +37,7 @@ pub struct CacheOrigins {
 }
 
 /// A cache to find or make.
-pub(super) struct Wanted<'a> {
+pub(super) struct CacheToFind<'a> {
     /// One that uses it.
     pub object: &'a PreparedObject,
     pub kept: Option<Arc<VoxelCache>>,
@@ -50,7 +50,7 @@ enum Origin {
     Read,
 }
 
-pub(super) struct Work<'a> {
+pub(super) struct CacheSearch<'a> {
     scene: &'a Scene,
     textures: &'a TexturePyramids,
     texture_hashes: &'a TextureHashes,
@@ -62,7 +62,7 @@ pub(super) struct Work<'a> {
     refused: OnceLock<String>,
 }
 
-impl<'a> Work<'a> {
+impl<'a> CacheSearch<'a> {
     pub fn new(
         scene: &'a Scene,
         textures: &'a TexturePyramids,
@@ -84,7 +84,7 @@ impl<'a> Work<'a> {
     }
 
     /// The wanted caches, in order.
-    pub fn run(&self, wanted: Vec<Wanted>) -> Result<(Vec<Arc<VoxelCache>>, CacheOrigins), PrepareError> {
+    pub fn run(&self, wanted: Vec<CacheToFind>) -> Result<(Vec<Arc<VoxelCache>>, CacheOrigins), PrepareError> {
         let missing: Vec<&PreparedObject> =
             wanted.iter().filter(|wanted| wanted.kept.is_none()).map(|wanted| wanted.object).collect();
         for object in &missing {
@@ -109,7 +109,7 @@ impl<'a> Work<'a> {
         Some(format!("voxels are not kept for the next opening: {folder} cannot be written ({cause})"))
     }
 
-    fn find(&self, Wanted { object, kept }: Wanted) -> Result<(Arc<VoxelCache>, Origin), PrepareError> {
+    fn find(&self, CacheToFind { object, kept }: CacheToFind) -> Result<(Arc<VoxelCache>, Origin), PrepareError> {
         if let Some(cache) = kept {
             return Ok((cache, Origin::Kept));
         }
@@ -121,12 +121,12 @@ impl<'a> Work<'a> {
         input.check().map_err(|cause| self.named(object, cause))?;
         let key = ContentKey::of(&input, self.texture_hashes);
         let replaces = match disk.load(&key, &input) {
-            Lookup::Found(cache) => {
+            Kept::Found(cache) => {
                 self.progress.advance(input.work_units())?;
                 return Ok((Arc::new(cache), Origin::Read));
             }
-            Lookup::Missing => false,
-            Lookup::Damaged => true,
+            Kept::Missing => false,
+            Kept::Damaged => true,
         };
         let cache = voxelize(&input)?;
         self.keep(disk, &key, &cache);

@@ -9,7 +9,7 @@ use super::{Prepared, PreparedPart};
 use crate::data::voxel_cache::{Tile, VoxelCache};
 use crate::scene::{Motion, Pose};
 use crate::settings::{Hidden, MotionSettings, VoxelAnchor};
-use crate::stages::transform::{Matrix3x4, Part};
+use crate::stages::transform::{Matrix3x4, PartRecord};
 
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MotionError {
@@ -22,7 +22,7 @@ pub enum MotionError {
 pub struct FrameMatrices {
     pub matrices: Vec<Matrix3x4>,
     /// As many as [`Prepared::parts`]; `joints_skew` is left to whoever uploads the caches.
-    pub parts: Vec<Part>,
+    pub parts: Vec<PartRecord>,
     /// Whether a part may reach into the grid: the others leave it (Object I-O).
     pub resident: Vec<bool>,
     /// Objects left out of this frame because a matrix that moves them is not finite. Those that are
@@ -199,7 +199,7 @@ impl Fold<'_> {
 
     fn push_part(&mut self, part: &PreparedPart, origin: IVec3, first_matrix: u32, resident: bool) {
         let object = part.object as u32;
-        self.frame.parts.push(Part { origin: origin.to_array(), first_matrix, object, ..Part::default() });
+        self.frame.parts.push(PartRecord { origin: origin.to_array(), first_matrix, object, ..PartRecord::default() });
         self.frame.resident.push(resident);
     }
 

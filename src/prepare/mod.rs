@@ -27,7 +27,7 @@ use crate::settings::VoxelizationMode;
 use crate::stages::voxelize::{TexturePyramids, VoxelizeError};
 
 pub use caches::{CacheOrigins, Stores};
-use caches::{Wanted, Work};
+use caches::{CacheSearch, CacheToFind};
 pub use exact::{ExactError, ExactSurface, ExactVoxel, ExactVoxels};
 pub use fold::{FrameMatrices, MotionError};
 pub use lattice::Lattice;
@@ -134,12 +134,12 @@ pub fn prepare_with(
         None => (Arc::new(TexturePyramids::new(&scene.textures)), Arc::new(TextureHashes::new(&scene.textures))),
     };
     let reusable = reuse.filter(|old| old.grid.span == grid.span && old.grid.anchor == grid.anchor && old.mode == mode);
-    let wanted: Vec<Wanted> = keys
+    let wanted: Vec<CacheToFind> = keys
         .iter()
         .zip(&first_users)
-        .map(|(key, &user)| Wanted { object: &objects[user], kept: reusable.and_then(|old| old.cache(key)) })
+        .map(|(key, &user)| CacheToFind { object: &objects[user], kept: reusable.and_then(|old| old.cache(key)) })
         .collect();
-    let work = Work::new(&scene, &textures, &texture_hashes, mode, stores.disk, progress);
+    let work = CacheSearch::new(&scene, &textures, &texture_hashes, mode, stores.disk, progress);
     let (caches, origins) = work.run(wanted)?;
     warnings.extend(work.into_warning());
     let parts = list_parts(&objects, &caches);

@@ -33,7 +33,9 @@ impl Settings {
         match format.as_ref().map(Value::as_u64) {
             None | Some(Some(FORMAT)) => {}
             Some(Some(newer)) if newer > FORMAT => {
-                return Err(format!("settings of format {newer} are of a newer Octolume; this one reads up to {FORMAT}"));
+                return Err(format!(
+                    "settings of format {newer} are of a newer Octolume; this one reads up to {FORMAT}"
+                ));
             }
             Some(_) => return Err(format!("settings: {KEY} is {}, not a number from 1", format.unwrap_or_default())),
         }

@@ -16,8 +16,8 @@ mod visibility;
 use serde::{Deserialize, Serialize};
 
 pub use cone_tracing::ConeTracing;
-pub use format::FORMAT;
 pub use discretization::{Discretization, Filter, VoxelAnchor, VoxelizationMode};
+pub use format::FORMAT;
 pub use light_names::{LightChange, LightError};
 pub use lighting::Lighting;
 pub use look::{

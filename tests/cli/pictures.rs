@@ -97,10 +97,14 @@ fn a_picture_of_every_format_so_far_is_drawn_again() {
             picture(&render(Path::new("courtyard"), &scenes.path("again.png"), &options))
         };
         let again = from(&before, &[]);
-        assert!(again == from(&before.with_extension("json"), &["--size", "96x54"]), "{format}: JSON and picture differ");
+        assert!(
+            again == from(&before.with_extension("json"), &["--size", "96x54"]),
+            "{format}: JSON and picture differ"
+        );
         let before = image::open(&before).expect("a picture").to_rgba8();
         assert_eq!(again.dimensions(), before.dimensions());
-        let is_off = |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 2);
+        let is_off =
+            |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 2);
         let off = again.pixels().zip(before.pixels()).filter(is_off).count();
         println!("{format}: {off} of {} pixels are off by more than 2 of 255", 96 * 54);
         assert!(off <= 96 * 54 / 100, "{format}: {off} pixels");

@@ -9,7 +9,7 @@ use octolume::settings::Filter;
 use octolume::settings::lighting::Opacity;
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::light::gather::{self, ConeParams, Cones, Gathered};
-use octolume::stages::light::gather_ref::{self, Seen, basis, cosine_directions};
+use octolume::stages::light::gather_ref::{self, ConeLight, basis, cosine_directions};
 use octolume::stages::pixels::LEAST_LIGHT;
 use proptest::prelude::RngExt;
 
@@ -73,7 +73,7 @@ pub fn check_random_scene(
     let all = gathered(gpu, &octree, what, &cones, opacity);
     for ((cell, found), normal) in all.into_iter().zip(normals).step_by(31) {
         let center = DVec3::from_array(cell.map(f64::from)) + 0.5;
-        let Seen { radiance, through } = gather_ref::gather(&lit, &cones, center, unpack_normal(normal));
+        let ConeLight { radiance, through } = gather_ref::gather(&lit, &cones, center, unpack_normal(normal));
         let expected = match what {
             Gathered::Sky => DVec3::ONE + DVec3::new(1.0, 2.0, 0.5) * through * PI,
             Gathered::Bounce => radiance * PI,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{Affine2, DVec3, Vec2, Vec4};
 use octolume::disk_cache::{ContentKey, DiskCache};
-use octolume::prepare::kept::{Lookup, TextureHashes};
+use octolume::prepare::kept::{Kept, TextureHashes};
 use octolume::progress::Progress;
 use octolume::scene::{AlphaMode, Material, TextureRef, Wrap};
 use octolume::settings::VoxelizationMode::{self, Conservative, Thin};
@@ -139,16 +139,13 @@ fn what_a_key_finds_is_what_was_stored_bit_for_bit() {
         let cache = object.cache(mode);
         assert!(!cache.emission.is_empty() && !cache.joints.is_empty());
         with_input(&object, mode, |input| {
-            assert_eq!(disk.load(&key, input), Lookup::Missing);
+            assert_eq!(disk.load(&key, input), Kept::Missing);
             disk.store(&key, &cache).expect("stored");
-            assert_eq!(disk.load(&key, input), Lookup::Found(cache.clone()));
+            assert_eq!(disk.load(&key, input), Kept::Found(cache.clone()));
         });
         // The same content in other objects is the same entry; other content finds nothing.
         with_input(&changed(|o| o.soup.positions[0].y += 1.0), mode, |input| {
-            assert_eq!(
-                disk.load(&ContentKey::of(input, &TextureHashes::new(&object.textures)), input),
-                Lookup::Missing
-            );
+            assert_eq!(disk.load(&ContentKey::of(input, &TextureHashes::new(&object.textures)), input), Kept::Missing);
         });
     }
     // Nothing covers nothing, which is worth keeping too.
@@ -156,7 +153,7 @@ fn what_a_key_finds_is_what_was_stored_bit_for_bit() {
     with_input(&nothing, Thin, |input| {
         let cache = voxelize(input, &Progress::default()).expect("voxelizes");
         disk.store(&key_of(&nothing, Thin), &cache).expect("stored");
-        assert_eq!(disk.load(&key_of(&nothing, Thin), input), Lookup::Found(cache));
+        assert_eq!(disk.load(&key_of(&nothing, Thin), input), Kept::Found(cache));
     });
 }
 

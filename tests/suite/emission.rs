@@ -7,7 +7,7 @@ use octolume::stages::fill::gather_emission_ref;
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::fill::place_emission::{self, Emission};
 use octolume::stages::fill::{Filling, gather_emission, place_emission_ref};
-use octolume::stages::transform::Part;
+use octolume::stages::transform::PartRecord;
 use proptest::prelude::RngExt;
 
 use crate::device::gpu;
@@ -39,7 +39,7 @@ struct Gathered {
 fn gathered(voxels: &[Fragment], emission: &[[u32; 2]], filter: Filter) -> Gathered {
     let words: Vec<_> = voxels.iter().map(world_voxel).collect();
     let mut world = World::given(gpu(), &words);
-    world.moving.parts = upload(gpu(), "parts", &[Part { emission_skew: 0, ..Part::default() }]);
+    world.moving.parts = upload(gpu(), "parts", &[PartRecord { emission_skew: 0, ..PartRecord::default() }]);
     let mut buffers = OctreeBuffers::default();
     let built = world.build_in(gpu(), &Shape::new(5, 3, filter), &mut buffers);
     let fill = Filling::made(buffers.octree()).expect("built");

@@ -12,7 +12,7 @@ use octolume::stages::light::shadow::{ShadowMap, ShadowParams};
 use octolume::stages::pixels::camera::PixelRays;
 use octolume::stages::pixels::{BACKGROUND, Picture, ViewParams};
 use octolume::stages::view::march_light::Exposure;
-use octolume::stages::view::march_ref::{self, Shown};
+use octolume::stages::view::march_ref::{self, DrawnCell};
 use octolume::stages::view::palette::legend_value;
 use octolume::stages::view::{Palette, march_light, march_light_ref, show_shadow, show_shadow_ref};
 
@@ -35,7 +35,7 @@ fn lit(gpu: &Gpu) -> (LightRig, Vec<[f32; 4]>) {
     (rig, stored)
 }
 
-fn shown_cells(rig: &LightRig, stored: &[[f32; 4]], factor: f64, level: u32) -> HashMap<IVec3, Shown> {
+fn shown_cells(rig: &LightRig, stored: &[[f32; 4]], factor: f64, level: u32) -> HashMap<IVec3, DrawnCell> {
     let inner = rig.built.params.inner_node_count as usize;
     let at = |cell: [u32; 3]| IVec3::from_array(cell.map(|c| c as i32));
     let shown = |entry: usize| march_light_ref::shown(stored[entry].map(f64::from), factor);

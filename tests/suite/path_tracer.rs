@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use octolume::accuracy::path_tracer::{Film, Reflection, Scene as PathScene, Term};
+use octolume::accuracy::path_tracer::{Film, Reflection, Term, TracedScene};
 use octolume::progress::Progress;
 use octolume::scene::{LightKind, Scene};
 use octolume::settings::Settings;
@@ -160,7 +160,7 @@ fn film(threads: usize, seed: u64, samples: &[u32]) -> Film {
     let (scene, settings) = furnace(0.7);
     let prepared = prepared(scene, &settings);
     let options = octolume::accuracy::path_tracer::Options { seed, ..options(Reflection::MetallicRoughness) };
-    let scene = PathScene::new(&prepared, &settings, options).expect("a pose");
+    let scene = TracedScene::new(&prepared, &settings, options).expect("a pose");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let mut film = scene.new_film();
     pool.install(|| {
@@ -183,7 +183,7 @@ fn a_seed_decides_every_bit_and_threads_and_pauses_none() {
 fn a_cancelled_step_can_be_finished() {
     let (scene, settings) = furnace(0.7);
     let prepared = prepared(scene, &settings);
-    let scene = PathScene::new(&prepared, &settings, options(Reflection::Lambert)).expect("a pose");
+    let scene = TracedScene::new(&prepared, &settings, options(Reflection::Lambert)).expect("a pose");
     let (mut film, progress) = (scene.new_film(), Progress::default());
     progress.cancel();
     assert!(scene.trace(&mut film, 2, &progress).is_err());
@@ -202,7 +202,7 @@ fn the_stated_error_is_no_less_than_what_seeds_differ_by() {
     let (mut squares, mut stated) = (0.0, 0.0);
     for seed in 0..16 {
         let options = octolume::accuracy::path_tracer::Options { seed, ..options(Reflection::Lambert) };
-        let scene = PathScene::new(&prepared, &settings, options).expect("a pose");
+        let scene = TracedScene::new(&prepared, &settings, options).expect("a pose");
         let mut film = scene.new_film();
         scene.trace(&mut film, 32, &Progress::default()).expect("is not cancelled");
         let image = film.image(Term::DiffuseAll);

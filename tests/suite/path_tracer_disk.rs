@@ -3,7 +3,7 @@
 use std::fs;
 
 use glam::DVec3;
-use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, Scene as PathScene};
+use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, TracedScene};
 use octolume::disk_cache::{ContentKey, DiskCache};
 use octolume::progress::Progress;
 use octolume::scene::{Material, Scene};
@@ -26,7 +26,7 @@ fn of_all() -> Options {
 
 fn traced(samples: u32, from: Option<Film>) -> Film {
     let prepared = prepared(scene(), &settings());
-    let scene = PathScene::new(&prepared, &settings(), of_all()).expect("a pose");
+    let scene = TracedScene::new(&prepared, &settings(), of_all()).expect("a pose");
     let mut film = from.unwrap_or_else(|| scene.new_film());
     scene.trace(&mut film, samples, &Progress::default()).expect("is not cancelled");
     film
@@ -34,7 +34,7 @@ fn traced(samples: u32, from: Option<Film>) -> Film {
 
 fn key(scene: Scene, settings: &Settings, options: Options) -> ContentKey {
     let prepared = prepared(scene, settings);
-    PathScene::new(&prepared, settings, options).expect("a pose").key()
+    TracedScene::new(&prepared, settings, options).expect("a pose").key()
 }
 
 #[test]

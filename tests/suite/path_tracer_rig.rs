@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, Vec2};
-use octolume::accuracy::path_tracer::{Film, Options, Reflection, Scene as PathScene, Term};
+use octolume::accuracy::path_tracer::{Film, Options, Reflection, Term, TracedScene};
 use octolume::color::luminance;
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
@@ -79,7 +79,7 @@ pub fn prepared(scene: Scene, settings: &Settings) -> Arc<Prepared> {
 
 pub fn traced_with(scene: Scene, settings: &Settings, options: Options, samples: u32) -> Film {
     let prepared = prepared(scene, settings);
-    let scene = PathScene::new(&prepared, settings, options).unwrap_or_else(|error| panic!("{error}"));
+    let scene = TracedScene::new(&prepared, settings, options).unwrap_or_else(|error| panic!("{error}"));
     let mut film = scene.new_film();
     scene.trace(&mut film, samples, &Progress::default()).expect("is not cancelled");
     film

@@ -1,15 +1,15 @@
 //! Errors of pictures against closed forms, and maps of them.
 
 use octolume::accuracy::picture_error::{
-    CompareError, LightPixel, PictureError, Shown, compare, difference_color, difference_map, difference_scale,
+    CompareError, Display, LightPixel, PictureError, compare, difference_color, difference_map, difference_scale,
 };
 use octolume::settings::{Look, SurfaceView, ToneCurve};
 
 const SIZE_PX: [u32; 2] = [32, 24];
 const PIXELS: usize = 32 * 24;
 
-fn shown(truth: &[LightPixel]) -> Shown {
-    Shown::new(&Look::default(), SurfaceView::Final, truth)
+fn shown(truth: &[LightPixel]) -> Display {
+    Display::new(&Look::default(), SurfaceView::Final, truth)
 }
 
 /// Bright stripes, darker to the right.
@@ -65,7 +65,7 @@ fn flip_grows_with_what_an_eye_sees() {
     let flips = [1.02, 1.2, 2.0, 8.0].map(|factor| error(&stripes(factor), &truth).flip.expect("is built in"));
     assert!(flips.is_sorted() && flips[0] < 0.05 && flips[3] > 0.2, "{flips:?}");
     let [black, white] = [0.0_f32, 1e6].map(|light| vec![[light, light, light, 1.0]; PIXELS]);
-    let worst = compare(&white, &black, SIZE_PX, &Shown { exposure: 1.0, curve: ToneCurve::Linear });
+    let worst = compare(&white, &black, SIZE_PX, &Display { exposure: 1.0, curve: ToneCurve::Linear });
     assert!(worst.expect("same sizes").flip.expect("is built in") > 0.9);
 }
 
@@ -97,12 +97,12 @@ fn exposure_is_that_of_the_settings_or_what_the_mean_asks_for() {
     let picture = vec![[0.36, 0.36, 0.36, 1.0]; 4];
     assert!((shown(&picture).exposure - 0.5).abs() < 1e-6);
     let look = Look { exposure_stops: Some(3.0), tone_curve: ToneCurve::Linear, ..Look::default() };
-    let fixed = Shown::new(&look, SurfaceView::Diffuse, &picture);
-    assert_eq!(fixed, Shown { exposure: 8.0, curve: ToneCurve::Linear });
+    let fixed = Display::new(&look, SurfaceView::Diffuse, &picture);
+    assert_eq!(fixed, Display { exposure: 8.0, curve: ToneCurve::Linear });
     assert_eq!(fixed.bytes(&[1.0, 0.0, -1.0, 1.0]), [255, 0, 0]);
-    let plain = Shown { exposure: 1.0, curve: ToneCurve::Linear };
-    assert_eq!(Shown::new(&look, SurfaceView::Ao, &picture), plain);
-    assert_eq!(Shown::new(&Look::default(), SurfaceView::Final, &[[0.0; 4]; 4]).exposure, 1.0);
+    let plain = Display { exposure: 1.0, curve: ToneCurve::Linear };
+    assert_eq!(Display::new(&look, SurfaceView::Ao, &picture), plain);
+    assert_eq!(Display::new(&Look::default(), SurfaceView::Final, &[[0.0; 4]; 4]).exposure, 1.0);
 }
 
 #[test]

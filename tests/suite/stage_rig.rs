@@ -8,7 +8,7 @@ use octolume::data::voxel_cache::{CacheVoxel, VoxelJoints};
 use octolume::gpu::{Gpu, GpuBuffer, Job, Recorder};
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::transform::rigid_ref::{pack_q, unpack_q};
-use octolume::stages::transform::{Matrix3x4, MovingVoxels, Part, rigid, skinned};
+use octolume::stages::transform::{Matrix3x4, MovingVoxels, PartRecord, rigid, skinned};
 use wgpu::BufferUsages;
 
 /// A tile of an object: voxels, what moves them, and joints where it is skinned.
@@ -98,12 +98,12 @@ impl World {
         for (part, number) in parts.iter().zip(0..) {
             let (first_voxel, count) = (voxels.len() as u32, part.voxels.len() as u32);
             pages.enter(number, count);
-            uploaded.push(Part {
+            uploaded.push(PartRecord {
                 origin: part.origin,
                 first_matrix: matrices.len() as u32,
                 joints_skew: if part.joints.is_empty() { 0 } else { first_voxel - joints.len() as u32 },
                 object: part.object,
-                ..Part::default()
+                ..PartRecord::default()
             });
             voxels.extend_from_slice(&part.voxels);
             joints.extend_from_slice(&part.joints);
@@ -144,7 +144,7 @@ impl World {
         let moving = MovingVoxels {
             work_items: upload(gpu, "work items", &list.items),
             work_hints: upload(gpu, "work hints", &list.hints),
-            parts: upload(gpu, "parts", &[Part::default()]),
+            parts: upload(gpu, "parts", &[PartRecord::default()]),
             matrices: upload(gpu, "matrices", &[Matrix3x4::default()]),
             cache_voxels: upload(gpu, "cache voxels", &[[0_u32; 4]]),
             cache_joints: None,

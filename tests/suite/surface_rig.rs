@@ -18,7 +18,7 @@ use octolume::stages::mesh::{MeshScene, PosedMesh, Textures};
 use octolume::stages::pixels::camera::PixelRays;
 use octolume::stages::pixels::projection;
 use octolume::stages::pixels::{NO_DEPTH, ViewParams, picture};
-use octolume::stages::surface::draw::{self, Seen};
+use octolume::stages::surface::draw::{self, Viewpoint};
 use octolume::stages::surface::{Lit, direct, direct_march, emission};
 
 use crate::device::gpu;
@@ -79,7 +79,7 @@ impl<'a> Shot<'a> {
         let of_pose = (&self.pose, &Hidden::default());
         let posed = PosedMesh::new(gpu, &mesh, &mut Slot::default(), of_pose, &camera_from_world).expect("fits");
         let mut frame = Recorder::default();
-        let seen = Seen { camera: &self.camera, grid: &self.grid, emission: self.emission };
+        let seen = Viewpoint { camera: &self.camera, grid: &self.grid, emission: self.emission };
         draw::record(gpu, &mut frame, &posed, seen, (&image, &depth));
         (frame, image)
     }

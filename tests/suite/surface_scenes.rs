@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use octolume::accuracy::path_tracer::{Options, PixelSampling, Reflection, Scene as PathScene, Term};
+use octolume::accuracy::path_tracer::{Options, PixelSampling, Reflection, Term, TracedScene};
 use octolume::accuracy::posed_triangles::{PosedTriangles, SurfacePoint};
 use octolume::accuracy::ray_tree::Segment;
 use octolume::data::surface_image::SurfaceTexel;
@@ -167,7 +167,7 @@ fn drawn_light(prepared: &Prepared, settings: &Settings) -> Vec<f64> {
 fn traced_light(prepared: &Prepared, settings: &Settings) -> Vec<f64> {
     let (pixel, reflection) = (PixelSampling::Centre, Reflection::MetallicRoughness);
     let options = Options { size_px: SIZE_PX, seed: 1, pixel, reflection };
-    let traced = PathScene::new(prepared, settings, options).expect("a pose");
+    let traced = TracedScene::new(prepared, settings, options).expect("a pose");
     let mut film = traced.new_film();
     // Lights are not chosen by chance at what the camera sees: one sample has all of them.
     traced.trace(&mut film, 1, &Progress::default()).expect("not cancelled");

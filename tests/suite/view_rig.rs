@@ -15,7 +15,7 @@ use octolume::stages::pixels::camera::{PixelRay, PixelRays};
 use octolume::stages::pixels::{BACKGROUND, LEAST_LIGHT, NO_DEPTH, Picture, ViewParams, shown_color, shown_level};
 use octolume::stages::view::Palette;
 use octolume::stages::view::march::{self, MarchedOctree};
-use octolume::stages::view::march_ref::{self, Rules, Shown};
+use octolume::stages::view::march_ref::{self, DrawnCell, Rules};
 use octolume::stages::view::palette::{legend_object, legend_value};
 
 use crate::plain_octree::{Leaf, PlainOctree};
@@ -167,13 +167,13 @@ pub fn is_near(distance: Option<f64>, other: Option<f64>) -> bool {
 }
 
 /// Every cell that a look shows.
-pub fn shown_cells(plain: &PlainOctree, look: &Look) -> HashMap<IVec3, Shown> {
+pub fn shown_cells(plain: &PlainOctree, look: &Look) -> HashMap<IVec3, DrawnCell> {
     let level = shown_level(look, plain.params.depth);
     let cell = |key: u32| IVec3::from_array(morton_cell(key).map(|c| c as i32));
     plain.occupied(level).into_iter().filter_map(|key| Some((cell(key), shown(plain, look, level, key)?))).collect()
 }
 
-pub fn shown(plain: &PlainOctree, look: &Look, level: u32, key: u32) -> Option<Shown> {
+pub fn shown(plain: &PlainOctree, look: &Look, level: u32, key: u32) -> Option<DrawnCell> {
     let depth = plain.params.depth;
     let mean = plain.mean(level, key)?;
     let linear = |bytes: [u8; 3]| DVec3::from_array(bytes.map(|byte| linear_from_gamma(f64::from(byte) / 255.0)));
@@ -187,7 +187,7 @@ pub fn shown(plain: &PlainOctree, look: &Look, level: u32, key: u32) -> Option<S
         ColorBy::Radiance | ColorBy::Irradiance => unreachable!("light has a kernel of its own"),
     };
     let shaded = look.shaded && !matches!(color, ColorBy::Normal | ColorBy::Occupancy);
-    Some(Shown { occupancy: mean.occupancy, color: painted, normal: mean.normal, shaded })
+    Some(DrawnCell { occupancy: mean.occupancy, color: painted, normal: mean.normal, shaded })
 }
 
 pub fn rules(look: &Look, depth: u32, level: u32) -> Rules {

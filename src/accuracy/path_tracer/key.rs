@@ -6,7 +6,7 @@
 use super::camera::CameraRays;
 use super::lights::Punctual;
 use super::surface::SurfaceReader;
-use super::{Options, PixelSampling, Reflection, Scene};
+use super::{Options, PixelSampling, Reflection, TracedScene};
 use crate::accuracy::posed_triangles::PosedSurface;
 use crate::accuracy::triangle::PosedTriangle;
 use crate::disk_cache::ContentKey;
@@ -17,8 +17,9 @@ use crate::scene::{AlphaMode, LightKind, Material, Primitive};
 const ALGORITHM_VERSION: u64 = 1;
 
 /// Of a scene ready to be traced.
-pub fn key(scene: &Scene) -> ContentKey {
-    let Scene { triangles, readers, punctual, emitters: _, sky_nits, occlusion_cells, rays, options, textures } = scene;
+pub fn key(scene: &TracedScene) -> ContentKey {
+    let TracedScene { triangles, readers, punctual, emitters: _, sky_nits, occlusion_cells, rays, options, textures } =
+        scene;
     let mut writer = ContentWriter::new(textures);
     writer.number(ALGORITHM_VERSION);
     let posed = triangles.tree().triangles();

@@ -78,7 +78,7 @@ pub enum Reflection {
 }
 
 /// All that paths need to know.
-pub struct Scene<'a> {
+pub struct TracedScene<'a> {
     triangles: PosedTriangles<'a>,
     /// By surface of the triangles.
     readers: Vec<SurfaceReader<'a>>,
@@ -93,7 +93,7 @@ pub struct Scene<'a> {
     textures: &'a TextureHashes,
 }
 
-impl<'a> Scene<'a> {
+impl<'a> TracedScene<'a> {
     /// Objects at no finite place are left out: [`Self::warnings`].
     pub fn new(prepared: &'a Prepared, settings: &Settings, options: Options) -> Result<Self, LightsError> {
         let hidden = prepared.hidden(&settings.visibility)?;

@@ -12,7 +12,7 @@ use super::film::Sample;
 use super::lights::{Arrival, solid};
 use super::sampler::{Sampler, is_heads};
 use super::surface::{Shape, Surface};
-use super::{Scene, Term};
+use super::{Term, TracedScene};
 use crate::accuracy::posed_triangles::START_OFFSET_CELLS;
 use crate::accuracy::ray_tree::Segment;
 use crate::color::luminance;
@@ -30,7 +30,7 @@ struct Arriving {
     all: DVec3,
 }
 
-impl Scene<'_> {
+impl TracedScene<'_> {
     /// Along a ray of the camera.
     pub(super) fn sample(&self, ray: Segment, sampler: &mut Sampler) -> Sample {
         let Some(seen) = self.meet(ray, sampler.coin()) else { return Sample::default() };

@@ -5,7 +5,7 @@
 //! FLIP of what a screen shows of it, and a map of the signed difference.
 
 mod difference;
-mod shown;
+mod display;
 
 use image::RgbImage;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::color::luminance;
 
 pub use difference::{difference_color, difference_map, difference_scale};
-pub use shown::Shown;
+pub use display::Display;
 
 /// Linear RGB, and 1 where a surface is.
 pub type LightPixel = [f32; 4];
@@ -48,7 +48,7 @@ pub fn compare(
     found: &[LightPixel],
     truth: &[LightPixel],
     size_px: [u32; 2],
-    shown: &Shown,
+    shown: &Display,
 ) -> Result<PictureError, CompareError> {
     let pixels = size_px[0] as usize * size_px[1] as usize;
     if found.len() != pixels || truth.len() != pixels {

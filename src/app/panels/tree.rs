@@ -4,7 +4,7 @@
 use egui::{RichText, ScrollArea, TextEdit, Ui};
 use egui_ltreeview::{Action, TreeView, TreeViewBuilder, TreeViewState};
 
-use super::tree_row::{Offer, Row, TreePanel, offers};
+use super::tree_row::{Offer, TreePanel, TreeRow, offers};
 use super::{node_facts, nothing};
 use crate::app::command::Command;
 use crate::app::outline;
@@ -109,7 +109,7 @@ fn rows_ui(ui: &mut Ui, panel: TreePanel<'_>, shown: &[bool], state: &mut TreeSt
         let (response, actions) = tree.show_state(ui, view, |rows| match found {
             Some(found) => {
                 for &node in found {
-                    rows.node(Row::leaf(panel, shown, node, &mut commands));
+                    rows.node(TreeRow::leaf(panel, shown, node, &mut commands));
                 }
             }
             None => add_rows(rows, panel, shown, &mut commands),
@@ -144,12 +144,12 @@ fn add_rows(rows: &mut TreeViewBuilder<'_, usize>, panel: TreePanel<'_>, shown: 
             Step::Enter { node, depth } => {
                 let children = &panel.outline.children[node];
                 if children.is_empty() {
-                    rows.node(Row::leaf(panel, shown, node, commands));
+                    rows.node(TreeRow::leaf(panel, shown, node, commands));
                     continue;
                 }
                 let is_unfolded = depth < panel.outline.unfolded_depth;
                 steps.push(Step::Leave);
-                if rows.node(Row::branch(panel, shown, node, is_unfolded, commands)) {
+                if rows.node(TreeRow::branch(panel, shown, node, is_unfolded, commands)) {
                     steps.extend(children.iter().rev().map(enter(depth + 1)));
                 }
             }

@@ -42,7 +42,7 @@ pub fn offers(panel: TreePanel<'_>, node: Option<usize>, is_shown: bool) -> [Off
 }
 
 /// Laid out only where it is on screen.
-pub struct Row<'a> {
+pub struct TreeRow<'a> {
     panel: TreePanel<'a>,
     node: usize,
     is_shown: bool,
@@ -51,7 +51,7 @@ pub struct Row<'a> {
     commands: &'a mut Vec<Command>,
 }
 
-impl<'a> Row<'a> {
+impl<'a> TreeRow<'a> {
     /// A node without what is below it.
     pub fn leaf(panel: TreePanel<'a>, shown: &[bool], node: usize, commands: &'a mut Vec<Command>) -> Self {
         Self { panel, node, is_shown: shown.get(node).copied().unwrap_or(true), branch: None, commands }
@@ -84,7 +84,7 @@ impl<'a> Row<'a> {
     }
 }
 
-impl NodeConfig<usize> for Row<'_> {
+impl NodeConfig<usize> for TreeRow<'_> {
     fn id(&self) -> &usize {
         &self.node
     }

@@ -7,14 +7,14 @@ use super::measuring::{self, ConeParts, OfParts};
 use super::pictures::{self, ConePicture, OfPicture};
 use super::tracing::Run;
 use super::{Overlay, PARTS, Reference, Seen, Tracing};
-use crate::accuracy::picture_error::Shown as ShownAs;
+use crate::accuracy::picture_error::Display;
 use crate::app::background::{Background, Outcome};
 use crate::disk_cache::DiskCache;
 use crate::engine::{Engine, EngineError};
 use crate::settings::{ToneCurve, View};
 
 /// What the window shows in a frame.
-pub struct Shown<'a> {
+pub struct ShownSurfaces<'a> {
     pub seen: Seen,
     /// Where traced pictures are kept.
     pub disk: Option<&'a DiskCache>,
@@ -29,7 +29,7 @@ pub struct Shown<'a> {
 
 impl Reference {
     /// Once a frame, after the picture. An error is told once, as one sentence.
-    pub fn follow(&mut self, ctx: &egui::Context, shown: &Shown<'_>) -> Result<(), String> {
+    pub fn follow(&mut self, ctx: &egui::Context, shown: &ShownSurfaces<'_>) -> Result<(), String> {
         let collected = self.collect(ctx);
         if std::mem::take(&mut self.is_ordered) {
             self.start(ctx, shown);
@@ -83,7 +83,7 @@ impl Reference {
     }
 
     /// Traces what is seen; goes on where the same was stopped.
-    fn start(&mut self, ctx: &egui::Context, shown: &Shown<'_>) {
+    fn start(&mut self, ctx: &egui::Context, shown: &ShownSurfaces<'_>) {
         if !self.seen.as_ref().is_some_and(|traced| traced.is(&shown.seen)) {
             (self.kept, self.traced) = (None, None);
         }
@@ -94,7 +94,7 @@ impl Reference {
     }
 
     /// Reads what is shown, where that is another result than last time.
-    fn read_shown(&mut self, shown: &Shown<'_>) -> Result<(), EngineError> {
+    fn read_shown(&mut self, shown: &ShownSurfaces<'_>) -> Result<(), EngineError> {
         if self.cones.as_ref().is_some_and(|(results, _)| *results == shown.results) {
             return Ok(());
         }
@@ -106,8 +106,8 @@ impl Reference {
                 size_px: shown.seen.size_px,
                 pixels,
                 shown: match part.is_light() {
-                    true => ShownAs { exposure: shown.engine.exposure(), curve },
-                    false => ShownAs { exposure: 1.0, curve: ToneCurve::Linear },
+                    true => Display { exposure: shown.engine.exposure(), curve },
+                    false => Display { exposure: 1.0, curve: ToneCurve::Linear },
                 },
                 shows_sky: part.is_light() && settings.lighting.sky_nits != [0.0; 3],
             };
@@ -117,7 +117,7 @@ impl Reference {
     }
 
     /// Reads one more of the parts, so that no frame is long; waits until nobody is at work.
-    fn read_parts(&mut self, shown: &Shown<'_>) -> Result<(), EngineError> {
+    fn read_parts(&mut self, shown: &ShownSurfaces<'_>) -> Result<(), EngineError> {
         if !shown.is_quiet {
             return Ok(());
         }

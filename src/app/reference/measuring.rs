@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::tracing::{PARTS, Traced};
-use crate::accuracy::picture_error::{CompareError, LightPixel, PictureError, Shown, compare};
+use crate::accuracy::picture_error::{CompareError, Display, LightPixel, PictureError, compare};
 use crate::settings::{Look, SurfaceView};
 
 /// The parts of a finished picture of the engine that were read so far.
@@ -34,7 +34,7 @@ pub struct MeasuredPart {
 pub fn measure(cones: &ConeParts, traced: &Traced) -> Result<Vec<MeasuredPart>, CompareError> {
     let both = PARTS.into_iter().zip(&cones.pixels).filter_map(|(part, pixels)| {
         let (pixels, paths) = (pixels.as_ref()?, &traced.part(part)?.image);
-        let error = compare(pixels, paths, cones.size_px, &Shown::new(&cones.look, part, paths));
+        let error = compare(pixels, paths, cones.size_px, &Display::new(&cones.look, part, paths));
         Some(error.map(|error| MeasuredPart { part, error }))
     });
     both.collect()

@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 use image::RgbaImage;
 
-pub use self::follow::Shown;
+pub use self::follow::ShownSurfaces;
 use self::latest::Latest;
 pub use self::measuring::MeasuredPart;
 use self::measuring::{ConeParts, OfParts};

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use image::{DynamicImage, Rgba, RgbaImage};
 
 use super::tracing::Traced;
-use crate::accuracy::picture_error::{LightPixel, Shown, difference_map, difference_scale};
+use crate::accuracy::picture_error::{Display, LightPixel, difference_map, difference_scale};
 use crate::color::srgb_byte;
 use crate::settings::SurfaceView;
 use crate::stages::pixels::BACKGROUND;
@@ -17,7 +17,7 @@ pub struct ConePicture {
     pub size_px: [u32; 2],
     /// Rows from the top.
     pub pixels: Vec<LightPixel>,
-    pub shown: Shown,
+    pub shown: Display,
     /// The sky is seen beside surfaces.
     pub shows_sky: bool,
 }
@@ -71,7 +71,7 @@ mod tests {
 
     fn drawn(part: SurfaceView, exposure: f64, cone: f32, path: f32) -> Pictures {
         let pixels = vec![[cone, cone, cone, 1.0], [0.0; 4]];
-        let shown = Shown { exposure, curve: ToneCurve::Linear };
+        let shown = Display { exposure, curve: ToneCurve::Linear };
         let cones = ConePicture { part, size_px: [2, 1], pixels, shown, shows_sky: false };
         let image = vec![[path, path / 2.0, 0.0, 1.0], [0.0; 4]];
         let traced = Traced { samples: 1, secs: 0.0, parts: vec![TracedPart { part, image, relative_error: None }] };

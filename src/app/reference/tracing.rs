@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::seen::Seen;
-use crate::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, Scene, Term};
+use crate::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, Term, TracedScene};
 use crate::accuracy::picture_error::LightPixel;
 use crate::app::background::{Background, Outcome};
 use crate::disk_cache::DiskCache;
@@ -117,7 +117,7 @@ fn trace(run: Run, progress: &Progress, publish: &(impl Fn(Traced) + Sync)) -> R
         let Run { seen, film, samples, disk } = run;
         let (pixel, reflection) = (PixelSampling::Centre, Reflection::MetallicRoughness);
         let options = Options { size_px: seen.size_px, seed: 0, pixel, reflection };
-        let scene = Scene::new(&seen.prepared, &seen.settings, options).map_err(|error| error.to_string())?;
+        let scene = TracedScene::new(&seen.prepared, &seen.settings, options).map_err(|error| error.to_string())?;
         let kept = disk.map(|disk| (disk, scene.key()));
         let stored = || kept.as_ref().and_then(|(disk, key)| disk.load_film(key, seen.size_px, samples));
         let mut film = film.or_else(stored).unwrap_or_else(|| scene.new_film());
@@ -133,7 +133,7 @@ fn trace(run: Run, progress: &Progress, publish: &(impl Fn(Traced) + Sync)) -> R
 }
 
 /// Sample by sample until there are as many as asked for; not, where it was stopped before.
-fn step(scene: &Scene<'_>, film: &mut Film, samples: u32, progress: &Progress, publish: impl Fn(&Film)) -> bool {
+fn step(scene: &TracedScene<'_>, film: &mut Film, samples: u32, progress: &Progress, publish: impl Fn(&Film)) -> bool {
     let missing = samples.saturating_sub(film.samples());
     progress.add_total(u64::from(missing) * u64::from(film.size_px()[1]));
     let mut last = Instant::now();

@@ -92,11 +92,11 @@ impl Made for Pages {
         self.exchange_objects(making, parts)?;
         let (gpu, prepared, frame) = (making.gpu, &making.request.prepared, &making.method.matrices);
         let caches = parts.caches.made(making.key(Part::Caches)?, "caches")?;
-        let with_records = |(index, part): (usize, &transform::Part)| {
+        let with_records = |(index, part): (usize, &transform::PartRecord)| {
             let start = caches.start(prepared.objects[prepared.parts[index].object].cache);
-            transform::Part { joints_skew: start.joints_skew, emission_skew: start.emission_skew, ..*part }
+            transform::PartRecord { joints_skew: start.joints_skew, emission_skew: start.emission_skew, ..*part }
         };
-        let records: Vec<transform::Part> = frame.parts.iter().enumerate().map(with_records).collect();
+        let records: Vec<transform::PartRecord> = frame.parts.iter().enumerate().map(with_records).collect();
         let item_bytes = (self.list.items.len() * size_of::<WorkItem>()) as u64;
         let items = self.work_items.ensure(gpu, "work items", item_bytes)?;
         gpu.write(&items, 0, bytemuck::cast_slice(&self.list.items))?;

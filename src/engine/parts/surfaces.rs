@@ -14,7 +14,7 @@ use crate::stages::light::LitOctree;
 use crate::stages::light::shadow::ShadowMap;
 use crate::stages::pixels::picture::depth_buffer;
 use crate::stages::pixels::projection::camera_from_world;
-use crate::stages::surface::draw::{self, Seen};
+use crate::stages::surface::draw::{self, Viewpoint};
 use crate::stages::surface::{Lit, direct, direct_march, emission};
 
 #[derive(Debug, Default)]
@@ -52,7 +52,7 @@ impl Made for Surfaces {
         let posed = parts.posed_mesh(making, &mut self.matrices, &camera_from_world(&shot.camera, grid))?;
         let emission = making.method.settings().lighting.emission;
         making.begin(frame, Pass::DrawSurfaces);
-        draw::record(gpu, frame, &posed, Seen { camera: &shot.camera, grid, emission }, (&image, &depth));
+        draw::record(gpu, frame, &posed, Viewpoint { camera: &shot.camera, grid, emission }, (&image, &depth));
         self.image = Some((image, depth));
         Ok(None)
     }

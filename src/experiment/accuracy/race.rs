@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 
-use crate::accuracy::path_tracer::{Film, Options, Scene};
-use crate::accuracy::picture_error::{self, LightPixel, PictureError, Shown};
+use crate::accuracy::path_tracer::{Film, Options, TracedScene};
+use crate::accuracy::picture_error::{self, Display, LightPixel, PictureError};
 use crate::experiment::table::name_of;
 use crate::experiment::{ExperimentError, TraceError};
 use crate::prepare::Prepared;
@@ -43,11 +43,11 @@ impl Race {
         progress: &Progress,
     ) -> Result<Self, ExperimentError> {
         let options = Options { seed: options.seed ^ OTHER_SEED, ..options };
-        let scene = Scene::new(prepared, settings, options).map_err(TraceError::from)?;
+        let scene = TracedScene::new(prepared, settings, options).map_err(TraceError::from)?;
         let part = settings.look.surface;
         let light = |film: &Film| shown(film, part, (prepared, settings));
         let truth_light = light(truth)?;
-        let shown = Shown::new(&settings.look, part, &truth_light);
+        let shown = Display::new(&settings.look, part, &truth_light);
         let mut film = scene.new_film();
         let mut race = Self { equal_time: None, as_right: None };
         // A truth that is hardly better than what is judged by it would say nothing.

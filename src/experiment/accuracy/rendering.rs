@@ -13,7 +13,7 @@ use super::race::{Race, flip, shown};
 use super::traced::traced;
 use super::{picture_stem, posed};
 use crate::accuracy::path_tracer::{Film, Options, Term};
-use crate::accuracy::picture_error::{self, LightPixel, PictureError, Shown, difference_map, difference_scale};
+use crate::accuracy::picture_error::{self, Display, LightPixel, PictureError, difference_map, difference_scale};
 use crate::disk_cache::DiskCache;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames, Times};
@@ -223,7 +223,7 @@ impl ReadTerm {
         stem: Option<&str>,
     ) -> Result<(RenderingRow, Vec<NamedPicture>), ExperimentError> {
         let truth = shown(film, self.part, (prepared, settings))?;
-        let shown = Shown::new(&settings.look, self.part, &truth);
+        let shown = Display::new(&settings.look, self.part, &truth);
         let error = picture_error::compare(&self.cones, &truth, film.size_px(), &shown)?;
         let bounces = settings.lighting.bounces;
         let stated = Term::of(self.part, bounces).map(|term| film.standard_error(term)).unwrap_or_default();
@@ -251,7 +251,7 @@ impl ReadTerm {
     fn pictures(
         &self,
         settings: &Settings,
-        (truth, shown, size_px): (&[LightPixel], Shown, [u32; 2]),
+        (truth, shown, size_px): (&[LightPixel], Display, [u32; 2]),
         stem: &str,
     ) -> Vec<NamedPicture> {
         let mut settings = settings.clone();

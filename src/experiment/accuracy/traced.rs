@@ -1,6 +1,6 @@
 //! A path-traced picture: goes on from what is kept on disk, and is kept there.
 
-use crate::accuracy::path_tracer::{Film, Options, Scene};
+use crate::accuracy::path_tracer::{Film, Options, TracedScene};
 use crate::disk_cache::DiskCache;
 use crate::experiment::TraceError;
 use crate::prepare::Prepared;
@@ -20,7 +20,7 @@ pub fn traced(
     (options, samples): (Options, u32),
     progress: &Progress,
 ) -> Result<Traced, TraceError> {
-    let scene = Scene::new(prepared, settings, options)?;
+    let scene = TracedScene::new(prepared, settings, options)?;
     let mut warnings = scene.warnings().to_vec();
     let kept = disk.map(|disk| (disk, scene.key()));
     let stored = kept.as_ref().and_then(|(disk, key)| disk.load_film(key, options.size_px, samples));

@@ -19,7 +19,7 @@ pub use key::{ContentWriter, TextureHashes};
 
 /// What a look into the folder finds.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Lookup {
+pub enum Kept {
     Found(VoxelCache),
     Missing,
     /// There is a file, but it cannot be read or is not what it should be.
@@ -28,14 +28,14 @@ pub enum Lookup {
 
 impl DiskCache {
     /// The voxels of `input`, if an entry of that key holds some that can be its.
-    pub fn load(&self, key: &ContentKey, input: &VoxelizeInput) -> Lookup {
+    pub fn load(&self, key: &ContentKey, input: &VoxelizeInput) -> Kept {
         match self.read(&entry::KIND, key) {
-            None => Lookup::Missing,
+            None => Kept::Missing,
             Some(bytes) => match entry::decode(&bytes, key).filter(|cache| fit::fits(cache, input)) {
-                None => Lookup::Damaged,
+                None => Kept::Damaged,
                 Some(cache) => {
                     self.touch(&entry::KIND, key);
-                    Lookup::Found(cache)
+                    Kept::Found(cache)
                 }
             },
         }

@@ -15,7 +15,7 @@ use crate::stages::sample::sample_points_ref::{Horizon, LitNodes};
 
 /// Means over cones.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Seen {
+pub struct ConeLight {
     pub radiance: DVec3,
     pub through: f64,
 }
@@ -43,7 +43,7 @@ pub fn basis(n: DVec3) -> DMat3 {
 }
 
 /// One cone from its apex.
-pub fn trace(lit: &LitNodes, cones: &Cones, apex: DVec3, direction: DVec3) -> Seen {
+pub fn trace(lit: &LitNodes, cones: &Cones, apex: DVec3, direction: DVec3) -> ConeLight {
     let rules = TraceRules { cones, sampling: Sampling::Quadrilinear, occlusion_cells: 0.0, horizon: None };
     trace_open(lit, &rules, apex, direction).0
 }
@@ -60,14 +60,14 @@ pub struct TraceRules<'a> {
 }
 
 /// One cone by these rules, and the share that comes through up to the distance of occlusion.
-pub fn trace_open(lit: &LitNodes, rules: &TraceRules<'_>, apex: DVec3, direction: DVec3) -> (Seen, f64) {
+pub fn trace_open(lit: &LitNodes, rules: &TraceRules<'_>, apex: DVec3, direction: DVec3) -> (ConeLight, f64) {
     let TraceRules { cones, sampling, occlusion_cells, ref horizon } = *rules;
     // Twice the tangent of half the full apex angle, a leaf at least.
     let half_angle = cones.aperture_degrees.to_radians() / 2.0;
     let diameter = |t: f64| (2.0 * t * half_angle.tan()).max(1.0);
     let (enter, leave) = inside(apex, direction, f64::from(1_u32 << lit.depth));
     let end = leave.min(cones.reach_cells);
-    let mut seen = Seen { radiance: DVec3::ZERO, through: 1.0 };
+    let mut seen = ConeLight { radiance: DVec3::ZERO, through: 1.0 };
     let mut open = 1.0;
     let mut t = enter;
     while t < end {
@@ -89,20 +89,20 @@ pub fn trace_open(lit: &LitNodes, rules: &TraceRules<'_>, apex: DVec3, direction
 }
 
 /// All cones of a leaf; a leaf without a mean normal looks up and down.
-pub fn gather(lit: &LitNodes, cones: &Cones, center: DVec3, normal: DVec3) -> Seen {
+pub fn gather(lit: &LitNodes, cones: &Cones, center: DVec3, normal: DVec3) -> ConeLight {
     if normal.length() < SHORT_NORMAL {
         let (up, down) = (hemisphere(lit, cones, center, DVec3::Z), hemisphere(lit, cones, center, DVec3::NEG_Z));
-        return Seen { radiance: (up.radiance + down.radiance) / 2.0, through: (up.through + down.through) / 2.0 };
+        return ConeLight { radiance: (up.radiance + down.radiance) / 2.0, through: (up.through + down.through) / 2.0 };
     }
     hemisphere(lit, cones, center, normal.normalize())
 }
 
-fn hemisphere(lit: &LitNodes, cones: &Cones, center: DVec3, n: DVec3) -> Seen {
+fn hemisphere(lit: &LitNodes, cones: &Cones, center: DVec3, n: DVec3) -> ConeLight {
     let turned = basis(n);
     let weight = 1.0 / f64::from(cones.count);
-    cosine_directions(cones.count).into_iter().fold(Seen::default(), |sum, direction| {
+    cosine_directions(cones.count).into_iter().fold(ConeLight::default(), |sum, direction| {
         let seen = trace(lit, cones, center + n * cones.start_cells, turned * direction);
-        Seen { radiance: sum.radiance + seen.radiance * weight, through: sum.through + seen.through * weight }
+        ConeLight { radiance: sum.radiance + seen.radiance * weight, through: sum.through + seen.through * weight }
     })
 }
 

@@ -41,7 +41,7 @@ pub const MIRRORS: &[Mirror] = &[mirror!(
 
 /// From where surfaces are seen.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<'a> {
+pub struct Viewpoint<'a> {
     pub camera: &'a OrbitCamera,
     pub grid: &'a Grid,
     /// Of an emissive factor of 1, nits.
@@ -53,7 +53,7 @@ pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
     posed: &PosedMesh<'_>,
-    seen: Seen<'_>,
+    seen: Viewpoint<'_>,
     (image, depth): (&SurfaceImage, &GpuTexture),
 ) {
     frame.raster(attachments(image, depth));

@@ -28,7 +28,7 @@ pub struct Matrix3x4 {
 /// A tile of an object's cache and what moves it. Mirror of `Part` in shaders/shared/part.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct Part {
+pub struct PartRecord {
     pub origin: [i32; 3],
     pub first_matrix: u32,
     pub joints_skew: u32,
@@ -40,7 +40,7 @@ pub struct Part {
 pub const MIRRORS: &[Mirror] = &[
     mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
     mirror!(Matrix3x4, "shared/move_voxel.wgsl", "Matrix3x4", rows),
-    mirror!(Part, "shared/part.wgsl", "Part", origin, first_matrix, joints_skew, object, emission_skew, pad),
+    mirror!(PartRecord, "shared/part.wgsl", "Part", origin, first_matrix, joints_skew, object, emission_skew, pad),
     mirror!(Matrix3x4, "shared/posed_mesh.wgsl", "MeshMatrix", rows),
 ];
 

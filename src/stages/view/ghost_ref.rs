@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec3, IVec3};
 
 use super::GhostColors;
-use super::march_ref::Shown;
+use super::march_ref::DrawnCell;
 
 /// What the cell shows; `None` where neither set has it.
 pub fn shown(
@@ -13,7 +13,7 @@ pub fn shown(
     moved: &BTreeSet<[i32; 3]>,
     exact: &BTreeSet<[i32; 3]>,
     colors: &GhostColors,
-) -> Option<Shown> {
+) -> Option<DrawnCell> {
     let cell = cell.to_array();
     let color = match (moved.contains(&cell), exact.contains(&cell)) {
         (true, true) => colors.both,
@@ -22,5 +22,5 @@ pub fn shown(
         (false, false) => return None,
     };
     let [r, g, b, a] = color.map(f64::from);
-    Some(Shown { occupancy: a, color: DVec3::new(r, g, b), normal: DVec3::ZERO, shaded: true })
+    Some(DrawnCell { occupancy: a, color: DVec3::new(r, g, b), normal: DVec3::ZERO, shaded: true })
 }

@@ -3,14 +3,14 @@
 
 use glam::DVec3;
 
-use super::march_ref::Shown;
+use super::march_ref::DrawnCell;
 use crate::color::luminance;
 use crate::stages::pixels::MEAN_SHOWN_AS;
 
 /// `stored`: light times opacity, and opacity, above zero. Not shaded: light is what it is.
-pub fn shown(stored: [f64; 4], factor: f64) -> Shown {
+pub fn shown(stored: [f64; 4], factor: f64) -> DrawnCell {
     let [r, g, b, opacity] = stored;
-    Shown { occupancy: opacity, color: DVec3::new(r, g, b) / opacity * factor, normal: DVec3::ZERO, shaded: false }
+    DrawnCell { occupancy: opacity, color: DVec3::new(r, g, b) / opacity * factor, normal: DVec3::ZERO, shaded: false }
 }
 
 /// Luminance of the mean light of what the root stands for; `None` where there is none.

@@ -13,7 +13,7 @@ use crate::stages::pixels::{AMBIENT, EDGE_FROM_PX, EDGE_FULL_PX, EDGE_SHADE, SHO
 
 /// What a cell shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown {
+pub struct DrawnCell {
     pub occupancy: f64,
     /// Linear.
     pub color: DVec3,
@@ -47,7 +47,7 @@ pub fn pixel(
     ray: &PixelRay,
     cells: u32,
     rules: &Rules,
-    shown: impl Fn(IVec3) -> Option<Shown>,
+    shown: impl Fn(IVec3) -> Option<DrawnCell>,
 ) -> (DVec3, Option<f64>) {
     let (mut color, mut through, mut depth_cells) = (DVec3::ZERO, 1.0, None);
     for crossing in crossings(ray.origin / rules.scale, ray.direction, cells) {
@@ -68,7 +68,7 @@ pub fn pixel(
     (DVec3::from_array(linear.to_array().map(gamma_from_linear)), depth_cells)
 }
 
-fn headlit(voxel: &Shown, crossing: &Crossing, direction: DVec3) -> DVec3 {
+fn headlit(voxel: &DrawnCell, crossing: &Crossing, direction: DVec3) -> DVec3 {
     let normal = if voxel.normal.length() < SHORT_NORMAL { crossing.entered } else { voxel.normal };
     match normal.try_normalize() {
         Some(normal) if voxel.shaded => voxel.color * (AMBIENT + (1.0 - AMBIENT) * normal.dot(direction).abs()),

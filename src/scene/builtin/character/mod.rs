@@ -15,7 +15,7 @@ use glam::DVec3;
 use gltf::json::{Index, Node};
 
 use super::exact::at;
-use super::glb::{ClipWriter, GlbWriter, Part, Track};
+use super::glb::{ClipWriter, GlbPart, GlbWriter, Track};
 use crate::scene::Trs;
 use piece::{Cloths, Piece};
 use skeleton::{JOINTS, Pose};
@@ -37,7 +37,7 @@ pub fn add_person(glb: &mut GlbWriter, name: &str, cloths: &Cloths, pose: &Pose)
     let bind_points: Vec<DVec3> = JOINTS.iter().map(|joint| joint.at()).collect();
     let skin = glb.skin(name, &joints, &bind_points);
     for (title, pieces) in body::meshes(cloths) {
-        let parts: Vec<Part> = pieces.into_iter().map(Piece::bound).collect();
+        let parts: Vec<GlbPart> = pieces.into_iter().map(Piece::bound).collect();
         let mesh = glb.mesh(title, &parts);
         let node = glb.show(Some(group), title, mesh, at(0.0, 0.0, 0.0));
         glb.bind_skin(node, skin);

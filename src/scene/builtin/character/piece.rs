@@ -4,7 +4,7 @@ use glam::DVec3;
 use gltf::json::{Index, Material};
 
 use super::weights::{self, Rule};
-use crate::scene::builtin::glb::Part;
+use crate::scene::builtin::glb::GlbPart;
 use crate::scene::builtin::shapes::Shape;
 use crate::scene::builtin::shapes::round::{Ring, tube};
 
@@ -32,10 +32,10 @@ pub struct Piece {
 
 impl Piece {
     /// The part as a file stores it: shaded, with the influences of every vertex.
-    pub fn bound(self) -> Part {
+    pub fn bound(self) -> GlbPart {
         let surface = self.shape.shaded(50.0);
         let influences = surface.positions.iter().map(|&point| weights::influence(&(self.rule)(point))).collect();
-        Part { surface, material: self.material, influences }
+        GlbPart { surface, material: self.material, influences }
     }
 }
 

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use gltf::json::{Index, Node};
 
 use super::super::exact::{PI, at, turned};
-use super::super::glb::{GlbWriter, Part};
+use super::super::glb::{GlbPart, GlbWriter};
 use super::super::shapes::Shape;
 use super::super::shapes::architecture::{arch, floor_around, moulding, plane, tiled_roof};
 use super::super::shapes::round::{lathe, lathe_part};
@@ -55,7 +55,8 @@ fn add_floor(glb: &mut GlbWriter, palette: &Palette) {
     // Four squares of the texture to 2.9 m: a tile is 0.725 m.
     let paving = Shape::joined([outer.box_mapped(BAY), inner.box_mapped(BAY)]).shaded(30.0);
     let ring = lathe(&[[RING[1], 0.0], [RING[0], 0.0]], 72).shaded(30.0);
-    let court = glb.mesh("court", &[Part::new(paving, palette.masonry.paving), Part::new(ring, palette.masonry.inlay)]);
+    let court =
+        glb.mesh("court", &[GlbPart::new(paving, palette.masonry.paving), GlbPart::new(ring, palette.masonry.inlay)]);
     glb.show(None, "court", court, at(0.0, 0.0, 0.0));
 
     let (aside, depth) = (WALL - x - KERB_TOP, WALL + back - KERB_TOP);
@@ -73,7 +74,7 @@ fn add_floor(glb: &mut GlbWriter, palette: &Palette) {
     let kerbs = Shape::joined(sides.into_iter().chain([rear])).box_mapped(1.0).shaded(30.0);
     let gallery = glb.mesh(
         "gallery floor",
-        &[Part::new(floor, palette.masonry.gallery_floor), Part::new(kerbs, palette.masonry.stone)],
+        &[GlbPart::new(floor, palette.masonry.gallery_floor), GlbPart::new(kerbs, palette.masonry.stone)],
     );
     glb.show(None, "gallery floor", gallery, at(0.0, 0.0, 0.0));
 }
@@ -119,7 +120,7 @@ fn column_places() -> Vec<DVec3> {
 }
 
 fn add_columns(glb: &mut GlbWriter, palette: &Palette, group: Index<Node>) {
-    let mesh = glb.mesh("column", &[Part::new(column().shaded(38.0), palette.masonry.stone)]);
+    let mesh = glb.mesh("column", &[GlbPart::new(column().shaded(38.0), palette.masonry.stone)]);
     for (index, place) in column_places().into_iter().enumerate() {
         glb.show(Some(group), &format!("column {}", index + 1), mesh, at(place.x, place.y, place.z));
     }
@@ -132,7 +133,7 @@ fn add_arches(glb: &mut GlbWriter, palette: &Palette, group: Index<Node>) {
     let ring = lathe_part(&profile, 20, 0.0, 0.5).turned(DVec3::X, PI / 2.0);
     let rings = Shape::joined([ring.clone(), ring.turned(DVec3::Y, PI)]).shaded(35.0);
     let mesh =
-        glb.mesh("arch", &[Part::new(wall, palette.masonry.cream_wall), Part::new(rings, palette.masonry.stone)]);
+        glb.mesh("arch", &[GlbPart::new(wall, palette.masonry.cream_wall), GlbPart::new(rings, palette.masonry.stone)]);
     for (index, offset) in [-BAY, 0.0, BAY].into_iter().enumerate() {
         glb.show(Some(group), &format!("back arch {}", index + 1), mesh, at(offset, SPRING, BACK_Z));
     }
@@ -144,7 +145,7 @@ fn add_arches(glb: &mut GlbWriter, palette: &Palette, group: Index<Node>) {
     }
     // Where two colonnades meet, a pier carries the corner.
     let pier = block(0.48, ARCH_HEIGHT, 0.48).moved(0.0, ARCH_HEIGHT / 2.0, 0.0).shaded(30.0);
-    let pier = glb.mesh("corner pier", &[Part::new(pier, palette.masonry.cream_wall)]);
+    let pier = glb.mesh("corner pier", &[GlbPart::new(pier, palette.masonry.cream_wall)]);
     for (name, x) in [("left corner", -SIDE_X), ("right corner", SIDE_X)] {
         glb.show(Some(group), name, pier, at(x, SPRING, BACK_Z));
     }
@@ -170,7 +171,7 @@ fn add_cornices(glb: &mut GlbWriter, palette: &Palette, group: Index<Node>) {
     let right = side.turned(DVec3::Y, PI).moved(SIDE_X, 0.0, BACK_Z + side_length / 2.0);
     let back = moulding(&profile, 2.0 * SIDE_X, 1).moved(face, CORNICE, 0.0).turned(DVec3::Y, -PI / 2.0);
     let whole = Shape::joined([left, right, back.moved(0.0, 0.0, BACK_Z)]).box_mapped(1.0).shaded(25.0);
-    let mesh = glb.mesh("cornice", &[Part::new(whole, palette.masonry.stone)]);
+    let mesh = glb.mesh("cornice", &[GlbPart::new(whole, palette.masonry.stone)]);
     glb.show(Some(group), "cornice", mesh, at(0.0, 0.0, 0.0));
 }
 
@@ -185,7 +186,7 @@ fn add_roofs(glb: &mut GlbWriter, palette: &Palette) {
     let left = left.turned(DVec3::Y, PI / 2.0).moved(-WALL, ROOF_TOP, 0.0);
     let right = right.turned(DVec3::Y, -PI / 2.0).moved(WALL, ROOF_TOP, 0.0);
     let tiles = Shape::joined([left, right, back.moved(0.0, ROOF_TOP, -WALL)]).shaded(50.0);
-    let mesh = glb.mesh("roof", &[Part::new(tiles, palette.masonry.roof)]);
+    let mesh = glb.mesh("roof", &[GlbPart::new(tiles, palette.masonry.roof)]);
     glb.show(Some(group), "roof", mesh, at(0.0, 0.0, 0.0));
 
     let (height, thick) = (CORNICE - 0.06, 0.06);
@@ -194,7 +195,7 @@ fn add_roofs(glb: &mut GlbWriter, palette: &Palette) {
     let depth = WALL + BACK_Z;
     let rear = block(2.0 * SIDE_X, thick, depth).moved(0.0, height, -WALL + depth / 2.0);
     let ceiling = Shape::joined([slab(-1.0), slab(1.0), rear]).box_mapped(2.0).shaded(30.0);
-    let mesh = glb.mesh("ceiling", &[Part::new(ceiling, palette.masonry.cream_wall)]);
+    let mesh = glb.mesh("ceiling", &[GlbPart::new(ceiling, palette.masonry.cream_wall)]);
     glb.show(Some(group), "ceiling", mesh, at(0.0, 0.0, 0.0));
     add_beams(glb, palette, group, height - thick / 2.0);
 }
@@ -204,7 +205,7 @@ fn add_beams(glb: &mut GlbWriter, palette: &Palette, group: Index<Node>, under: 
     use super::super::exact::scaled;
     let mesh = glb.mesh(
         "beam",
-        &[Part::new(
+        &[GlbPart::new(
             block(1.0, 1.0, 1.0).moved(0.6, 0.6, 0.6).box_mapped(5.0).moved(-0.6, -0.6, -0.6).shaded(30.0),
             palette.masonry.wood,
         )],

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use gltf::json::{Index, Node};
 
 use super::super::exact::{PI, TAU, at, turn};
-use super::super::glb::{ClipWriter, GlbWriter, Part, Track};
+use super::super::glb::{ClipWriter, GlbPart, GlbWriter, Track};
 use super::super::shapes::Shape;
 use super::super::shapes::round::{cylinder, lathe, torus};
 use super::super::shapes::solid::{bevelled_block, icosphere, sphere};
@@ -21,7 +21,7 @@ pub fn add(glb: &mut GlbWriter, palette: &Palette, walk: &mut ClipWriter) {
     let water = Shape::joined([lathe(&[[1.12, 0.44], [0.0, 0.44]], 40), lathe(&[[0.47, 1.275], [0.0, 1.275]], 24)]);
     let mesh = glb.mesh(
         "basin",
-        &[Part::new(basin, palette.masonry.stone), Part::new(water.shaded(30.0), palette.fittings.water)],
+        &[GlbPart::new(basin, palette.masonry.stone), GlbPart::new(water.shaded(30.0), palette.fittings.water)],
     );
     glb.show(Some(group), "basin", mesh, at(0.0, 0.0, 0.0));
     add_armillary(glb, palette, group, walk);
@@ -81,22 +81,22 @@ fn basin() -> Shape {
 /// level axle. A vane on top points to another of twelve marks every second.
 fn add_armillary(glb: &mut GlbWriter, palette: &Palette, group: Index<Node>, walk: &mut ClipWriter) {
     let fittings = &palette.fittings;
-    let hoop = glb.mesh("hoop", &[Part::new(hoop().shaded(40.0), fittings.iron)]);
+    let hoop = glb.mesh("hoop", &[GlbPart::new(hoop().shaded(40.0), fittings.iron)]);
     let hoop = glb.show(Some(group), "hoop", hoop, at(0.0, HEART, 0.0));
 
     let axle = cylinder(0.018, 2.0 * RING, 10).moved(0.0, -RING, 0.0).turned(DVec3::Z, PI / 2.0).shaded(40.0);
-    let ring = [Part::new(ring().shaded(40.0), fittings.bronze), Part::new(axle, fittings.iron)];
+    let ring = [GlbPart::new(ring().shaded(40.0), fittings.bronze), GlbPart::new(axle, fittings.iron)];
     let ring = glb.mesh("turning ring", &ring);
     let ring = glb.show(Some(hoop), "turning ring", ring, at(0.0, 0.0, 0.0));
     turn_evenly(walk, ring, DVec3::Y, 2);
 
     let heart = icosphere(0).scaled(0.31, 0.31, 0.31).shaded(20.0);
     let collar = cylinder(0.05, 0.60, 16).moved(0.0, -0.30, 0.0).turned(DVec3::Z, PI / 2.0).shaded(40.0);
-    let heart = glb.mesh("heart", &[Part::new(heart, fittings.silver), Part::new(collar, fittings.bronze)]);
+    let heart = glb.mesh("heart", &[GlbPart::new(heart, fittings.silver), GlbPart::new(collar, fittings.bronze)]);
     let heart = glb.show(Some(ring), "heart", heart, at(0.0, 0.0, 0.0));
     turn_evenly(walk, heart, DVec3::X, 3);
 
-    let vane = glb.mesh("vane", &[Part::new(vane().shaded(40.0), fittings.bronze)]);
+    let vane = glb.mesh("vane", &[GlbPart::new(vane().shaded(40.0), fittings.bronze)]);
     let vane = glb.show(Some(hoop), "vane", vane, at(0.0, RING + 0.37, 0.0));
     let marks = [0, 3, 5, 4, 8, 11, 10, 6, 7, 2, 0];
     let times: Vec<f64> = (0..marks.len()).map(|mark| WALK_SECS * mark as f64 / (marks.len() - 1) as f64).collect();

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::super::exact::{PI, TAU, at, atan2, cos, scaled, sin, smoothstep, turn, turned};
-use super::super::glb::{ClipWriter, GlbWriter, Part, Track};
+use super::super::glb::{ClipWriter, GlbPart, GlbWriter, Track};
 use super::super::shapes::Shape;
 use super::super::shapes::architecture::{Drape, cloth};
 use super::super::shapes::round::{cylinder, lathe, torus};
@@ -42,7 +42,7 @@ fn add_banners(glb: &mut GlbWriter, palette: &Palette) {
     let group = glb.node(None, "banners", at(0.0, 0.0, 0.0));
     let rod =
         cylinder(0.022, 2.0 * ARCH_RADIUS + 0.2, 10).moved(0.0, -ARCH_RADIUS - 0.1, 0.0).turned(DVec3::Z, PI / 2.0);
-    let rod = Part::new(rod.shaded(40.0), palette.fittings.iron);
+    let rod = GlbPart::new(rod.shaded(40.0), palette.fittings.iron);
     let mut meshes = Vec::new();
     for (index, &material) in palette.banners.iter().enumerate() {
         let drape = Drape {
@@ -53,7 +53,7 @@ fn add_banners(glb: &mut GlbWriter, palette: &Palette) {
             point_m: [0.22, 0.0, 0.30][index],
             phase: 1.3 * index as f64,
         };
-        let sheet = Part::new(cloth(&drape, 28, 8).moved(0.0, -0.02, 0.0).shaded(80.0), material);
+        let sheet = GlbPart::new(cloth(&drape, 28, 8).moved(0.0, -0.02, 0.0).shaded(80.0), material);
         meshes.push(glb.mesh(["crimson banner", "teal banner", "ochre banner"][index], &[sheet, rod.clone()]));
     }
     for (name, place, cloth) in banner_places() {
@@ -62,7 +62,7 @@ fn add_banners(glb: &mut GlbWriter, palette: &Palette) {
 }
 
 /// A lantern below its hook: chain, cap, glowing glass in a cage.
-fn lantern(palette: &Palette, chain_m: f64) -> [Part; 2] {
+fn lantern(palette: &Palette, chain_m: f64) -> [GlbPart; 2] {
     let chain = cylinder(0.012, chain_m, 6).moved(0.0, -chain_m, 0.0);
     let cap = lathe(&[[0.15, -0.02], [0.16, 0.0], [0.10, 0.06], [0.05, 0.09], [0.03, 0.12], [0.0, 0.13]], 6);
     let base = lathe(&[[0.0, -0.06], [0.05, -0.05], [0.13, -0.01], [0.14, 0.02], [0.0, 0.02]], 6);
@@ -73,8 +73,8 @@ fn lantern(palette: &Palette, chain_m: f64) -> [Part; 2] {
     let cage = [chain, cap.moved(0.0, -chain_m - 0.12, 0.0), base.moved(0.0, -chain_m - 0.47, 0.0)];
     let glass = lathe(&[[0.10, 0.0], [0.115, 0.16], [0.10, 0.32]], 6).moved(0.0, -chain_m - 0.45, 0.0);
     [
-        Part::new(Shape::joined(cage.into_iter().chain(bars)).shaded(30.0), palette.fittings.iron),
-        Part::new(glass.shaded(30.0), palette.fittings.lamp),
+        GlbPart::new(Shape::joined(cage.into_iter().chain(bars)).shaded(30.0), palette.fittings.iron),
+        GlbPart::new(glass.shaded(30.0), palette.fittings.lamp),
     ]
 }
 
@@ -120,7 +120,7 @@ fn add_pots(glb: &mut GlbWriter, palette: &Palette) {
         ],
         18,
     );
-    let pot = Part::new(pot.shaded(40.0), palette.fittings.clay);
+    let pot = GlbPart::new(pot.shaded(40.0), palette.fittings.clay);
     let tree = Shape::grid(12, 10, |u, v| {
         let (angle, up) = (TAU * if u == 1.0 { 0.0 } else { u }, v);
         let bump = 1.0 + 0.09 * sin(5.0 * angle + 9.0 * up) * sin(16.0 * up + 2.0 * angle);
@@ -132,8 +132,8 @@ fn add_pots(glb: &mut GlbWriter, palette: &Palette) {
         "cypress",
         &[
             pot,
-            Part::new(tree.shaded(60.0), palette.fittings.leaves),
-            Part::new(trunk.shaded(40.0), palette.masonry.wood),
+            GlbPart::new(tree.shaded(60.0), palette.fittings.leaves),
+            GlbPart::new(trunk.shaded(40.0), palette.masonry.wood),
         ],
     );
     let places = [(-3.45, 5.9, 1.0), (-3.5, -3.75, 1.15), (3.5, -3.75, 1.0), (3.45, 2.0, 0.9)];
@@ -143,7 +143,7 @@ fn add_pots(glb: &mut GlbWriter, palette: &Palette) {
 }
 
 /// A lion's head that looks a little to +X, a ring in its mouth; the wall is at z = 0.
-fn lion(palette: &Palette) -> [Part; 2] {
+fn lion(palette: &Palette) -> [GlbPart; 2] {
     let lump = |x: f64, y: f64, z: f64, size: [f64; 3]| {
         icosphere(if size[0] > 0.12 { 2 } else { 1 }).scaled(size[0], size[1], size[2]).moved(x, y, z)
     };
@@ -175,7 +175,7 @@ fn lion(palette: &Palette) -> [Part; 2] {
     .turned(DVec3::Y, 0.30);
     let ring = torus(0.095, 0.015, 16, 6).turned(DVec3::X, PI / 2.0 - 0.25).moved(0.06, -0.205, 0.20);
     let stone = Shape::joined([mane(0.285, 0.03, 0.0), mane(0.225, 0.09, PI), face]);
-    [Part::new(stone.shaded(70.0), palette.masonry.stone), Part::new(ring.shaded(60.0), palette.fittings.bronze)]
+    [GlbPart::new(stone.shaded(70.0), palette.masonry.stone), GlbPart::new(ring.shaded(60.0), palette.fittings.bronze)]
 }
 
 fn add_lions(glb: &mut GlbWriter, palette: &Palette) {
@@ -193,14 +193,16 @@ fn add_cube(glb: &mut GlbWriter, palette: &Palette, walk: &mut ClipWriter) {
         bevelled_block(0.58, 0.09, 0.58, 0.025).moved(0.0, 0.765, 0.0),
         cylinder(0.03, 0.10, 10).moved(0.0, 0.79, 0.0),
     ];
-    let plinth = glb
-        .mesh("plinth", &[Part::new(Shape::joined(plinth).box_mapped(1.0).shaded(40.0), palette.masonry.dark_stone)]);
+    let plinth = glb.mesh(
+        "plinth",
+        &[GlbPart::new(Shape::joined(plinth).box_mapped(1.0).shaded(40.0), palette.masonry.dark_stone)],
+    );
     let plinth = glb.show(None, "plinth", plinth, at(-3.2, 0.0, 1.95));
     let edge = 0.40;
     // From its resting corner the cube's diagonal rises straight up.
     let lean = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Y);
     let cube = bevelled_block(edge, edge, edge, 0.03).mapped(|point| lean * point);
-    let cube = glb.mesh("cube", &[Part::new(cube.shaded(20.0), palette.fittings.bronze)]);
+    let cube = glb.mesh("cube", &[GlbPart::new(cube.shaded(20.0), palette.fittings.bronze)]);
     let cube = glb.show(Some(plinth), "cube", cube, at(0.0, 0.87 + edge * 3.0_f64.sqrt() / 2.0 - 0.03, 0.0));
     turn_evenly(walk, cube, DVec3::Y, 1);
 }

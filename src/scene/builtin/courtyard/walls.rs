@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use gltf::json::{Index, Mesh};
 
 use super::super::exact::{PI, TAU, at, cos, scaled, sin, turned};
-use super::super::glb::{GlbWriter, Part};
+use super::super::glb::{GlbPart, GlbWriter};
 use super::super::shapes::Shape;
 use super::super::shapes::architecture::{bar, moulding, stairs};
 use super::super::shapes::round::{cylinder, lathe_part, torus};
@@ -42,11 +42,11 @@ pub fn add(glb: &mut GlbWriter, palette: &Palette) {
     let dado = moulding(&[[0.05, 0.0], [0.05, 0.44], [0.03, 0.50], [0.0, 0.51]], 2.0 * WALL, 1)
         .turned(DVec3::Y, -PI / 2.0)
         .moved(0.0, 0.0, -WALL);
-    let trims = Part::new(Shape::joined([coping, dado]).box_mapped(1.0).shaded(25.0), palette.masonry.stone);
-    let bracket = glb.mesh("bracket", &[Part::new(bracket().shaded(40.0), palette.masonry.stone)]);
+    let trims = GlbPart::new(Shape::joined([coping, dado]).box_mapped(1.0).shaded(25.0), palette.masonry.stone);
+    let bracket = glb.mesh("bracket", &[GlbPart::new(bracket().shaded(40.0), palette.masonry.stone)]);
     for ((name, turns), paint) in SIDES.into_iter().zip(paints) {
         let wall = block(length, TOP + 0.3, THICKNESS).moved(0.0, (TOP - 0.3) / 2.0, -WALL - THICKNESS / 2.0);
-        let wall = Part::new(wall.box_mapped(if name == "back" { 1.0 } else { 3.0 }).shaded(30.0), paint);
+        let wall = GlbPart::new(wall.box_mapped(if name == "back" { 1.0 } else { 3.0 }).shaded(30.0), paint);
         let mesh = glb.mesh(&format!("{name} wall"), &[wall, trims.clone()]);
         let side =
             glb.show(Some(group), &format!("{name} wall"), mesh, turned(at(0.0, 0.0, 0.0), DVec3::Y, TAU * turns));
@@ -99,9 +99,9 @@ const SILL: f64 = RISE * STEPS as f64;
 /// A closed door under a round arch, three steps high, for a wall at z = 0 that looks along +Z.
 fn portal(glb: &mut GlbWriter, palette: &Palette) -> Index<Mesh> {
     let parts = [
-        Part::new(door_leaves().shaded(30.0), palette.masonry.wood),
-        Part::new(portal_frame().box_mapped(1.0).shaded(35.0), palette.masonry.stone),
-        Part::new(door_irons().shaded(40.0), palette.fittings.iron),
+        GlbPart::new(door_leaves().shaded(30.0), palette.masonry.wood),
+        GlbPart::new(portal_frame().box_mapped(1.0).shaded(35.0), palette.masonry.stone),
+        GlbPart::new(door_irons().shaded(40.0), palette.fittings.iron),
     ];
     glb.mesh("portal", &parts)
 }

@@ -33,14 +33,14 @@ pub struct Influence {
 
 /// One primitive of a mesh.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct GlbPart {
     pub surface: Surface,
     pub material: Index<Material>,
     /// One a vertex; empty without a skin.
     pub influences: Vec<Influence>,
 }
 
-impl Part {
+impl GlbPart {
     pub fn new(surface: Surface, material: Index<Material>) -> Self {
         Self { surface, material, influences: Vec::new() }
     }
@@ -122,12 +122,12 @@ impl GlbWriter {
         index
     }
 
-    pub fn mesh(&mut self, name: &str, parts: &[Part]) -> Index<Mesh> {
+    pub fn mesh(&mut self, name: &str, parts: &[GlbPart]) -> Index<Mesh> {
         let primitives = parts.iter().map(|part| self.primitive(part)).collect();
         self.root.push(Mesh { name: Some(name.into()), primitives, weights: None, extensions: None, extras: None })
     }
 
-    fn primitive(&mut self, part: &Part) -> Primitive {
+    fn primitive(&mut self, part: &GlbPart) -> Primitive {
         let vertices = Some(buffer::Target::ArrayBuffer);
         let surface = &part.surface;
         let rows3 = |rows: &[DVec3]| -> Vec<[f32; 3]> { rows.iter().map(|row| float3(*row)).collect() };

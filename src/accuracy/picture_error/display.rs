@@ -13,13 +13,13 @@ const MOST_EXPOSED: f64 = 1e6;
 
 /// How light is shown. Pictures that are compared share it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown {
+pub struct Display {
     /// Multiplies light.
     pub exposure: f64,
     pub curve: ToneCurve,
 }
 
-impl Shown {
+impl Display {
     /// As settings want a part of the light shown; without an exposure of theirs, what `light` asks for.
     pub fn new(look: &Look, part: SurfaceView, light: &[LightPixel]) -> Self {
         if !part.is_light() {
