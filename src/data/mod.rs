@@ -2,6 +2,8 @@
 
 pub mod grid;
 pub mod light;
+pub mod matrix;
+pub mod mesh;
 pub mod octree;
 pub mod octree_buffers;
 pub mod packing;

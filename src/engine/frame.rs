@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use super::pool::Pinned;
 use super::request::{Request, Shot};
+use crate::data::mesh::Textures;
 use crate::digest::Digest;
 use crate::gpu::Job;
 use crate::plan::{FramePlan, Key, Part};
 use crate::settings::View;
-use crate::stages::mesh::Textures;
 
 pub struct Frame {
     pub request: Arc<Request>,

@@ -8,9 +8,9 @@ use super::parts::{Making, Parts, part_and_pass};
 use super::pool::Turn;
 use super::times::PassTiming;
 use super::{Engine, EngineError};
+use crate::data::mesh::MeshScene;
 use crate::gpu::{GpuError, Job, JobState, Recorder};
 use crate::plan::{FramePlan, Key, Keys, Part};
-use crate::stages::mesh::MeshScene;
 
 impl Engine {
     /// One slice of the frame on its way; `None` when all of it is done. Where memory is short, the frame begins again

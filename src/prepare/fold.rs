@@ -6,10 +6,11 @@ use std::collections::HashMap;
 use glam::{DMat4, DVec3, IVec3};
 
 use super::{Prepared, PreparedPart};
+use crate::data::matrix::Matrix3x4;
 use crate::data::voxel_cache::{Tile, VoxelCache};
 use crate::scene::{Motion, Pose};
 use crate::settings::{Hidden, MotionSettings, VoxelAnchor};
-use crate::stages::transform::{Matrix3x4, PartRecord};
+use crate::stages::transform::PartRecord;
 
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MotionError {

@@ -8,7 +8,6 @@ pub mod compare;
 pub mod cones;
 pub mod fill;
 pub mod light;
-pub mod mesh;
 pub mod pixels;
 pub mod sample;
 mod shaders;

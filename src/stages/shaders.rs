@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
-use super::{build, cones, fill, light, mesh, pixels, sample, surface, transform, view};
+use super::{build, cones, fill, light, pixels, sample, surface, transform, view};
 use crate::color::LUMINANCE;
 use crate::data;
 use crate::gpu::{self, Constant, Mirror, Shaders, constants};
@@ -31,7 +31,7 @@ const CONSTANTS: &[&[Constant]] = &[
     light::gather::CONSTANTS,
     light::shadow::CONSTANTS,
     sample::CONSTANTS,
-    mesh::CONSTANTS,
+    data::mesh::CONSTANTS,
     surface::CONSTANTS,
     surface::compose::CONSTANTS,
     surface::sum_luminance::CONSTANTS,
@@ -45,6 +45,8 @@ const CONSTANTS: &[&[Constant]] = &[
 /// Structs in bindings, list by list.
 pub const MIRRORS: &[&[Mirror]] = &[
     gpu::MIRRORS,
+    data::matrix::MIRRORS,
+    data::mesh::MIRRORS,
     data::octree::MIRRORS,
     data::pages::MIRRORS,
     transform::MIRRORS,
@@ -54,7 +56,6 @@ pub const MIRRORS: &[&[Mirror]] = &[
     light::inject::MIRRORS,
     light::shadow::MIRRORS,
     sample::sample_points::MIRRORS,
-    mesh::MIRRORS,
     surface::draw::MIRRORS,
     surface::compose::MIRRORS,
     surface::mean_luminance::MIRRORS,

@@ -2,11 +2,12 @@
 //! moved voxel may be.
 
 use glam::{DAffine3, DQuat, DVec3};
+use octolume::data::matrix::Matrix3x4;
 use octolume::data::packing::unpack_normal;
 use octolume::data::pages::SegmentOrder;
 use octolume::data::voxel_cache::{CacheVoxel, VoxelJoints};
 use octolume::stages::fill::gather_ref::Fragment;
-use octolume::stages::transform::{Matrix3x4, rigid_ref};
+use octolume::stages::transform::rigid_ref;
 use proptest::prelude::*;
 use proptest::test_runner::TestRng;
 

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
+use octolume::data::matrix::Matrix3x4;
 use octolume::data::pages::SegmentOrder;
 use octolume::prepare::{FrameMatrices, Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{LocalTransform, Node, Property, Scene, Trs};
 use octolume::settings::{Discretization, Hidden, MotionSettings, VoxelAnchor};
 use octolume::stages::fill::gather_ref::Fragment;
-use octolume::stages::transform::Matrix3x4;
 
 use crate::device::gpu;
 use crate::random::ONE;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use glam::{DQuat, DVec3};
+use octolume::data::mesh::{MeshScene, PosedMesh, Textures};
 use octolume::data::octree::Slot;
 use octolume::gpu::{Gpu, GpuBuffer};
 use octolume::lights::PosedLight;
@@ -16,7 +17,6 @@ use octolume::settings::lighting::Shadows;
 use octolume::stages::light::illuminate::{self, LightParams};
 use octolume::stages::light::illuminate_ref::{self, Source};
 use octolume::stages::light::shadow::{ShadowMap, ShadowParams};
-use octolume::stages::mesh::{MeshScene, PosedMesh, Textures};
 use octolume::stages::pixels::NO_DEPTH;
 
 use crate::device::gpu;

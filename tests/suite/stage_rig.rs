@@ -2,13 +2,14 @@
 //! voxels in pages. World voxels can be given as well, for the stages behind.
 
 use glam::{DAffine3, DVec3};
+use octolume::data::matrix::Matrix3x4;
 use octolume::data::packing::{pack_normal, pack_position, pack_rgba8, unpack_position};
 use octolume::data::pages::{Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
 use octolume::data::voxel_cache::{CacheVoxel, VoxelJoints};
 use octolume::gpu::{Gpu, GpuBuffer, Job, Recorder};
 use octolume::stages::fill::gather_ref::Fragment;
 use octolume::stages::transform::rigid_ref::{pack_q, unpack_q};
-use octolume::stages::transform::{Matrix3x4, MovingVoxels, PartRecord, rigid, skinned};
+use octolume::stages::transform::{MovingVoxels, PartRecord, rigid, skinned};
 use wgpu::BufferUsages;
 
 /// A tile of an object: voxels, what moves them, and joints where it is skinned.

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use glam::DVec3;
 use octolume::data::grid::Grid;
+use octolume::data::mesh::{MeshScene, PosedMesh, Textures};
 use octolume::data::octree::Slot;
 use octolume::data::surface_image::{SurfaceImage, SurfaceTexel};
 use octolume::gpu::{Gpu, Job, Recorder};
@@ -14,7 +15,6 @@ use octolume::settings::{Hidden, Look};
 use octolume::stages::light::LitOctree;
 use octolume::stages::light::illuminate::LightParams;
 use octolume::stages::light::shadow::{ShadowMap, ShadowParams};
-use octolume::stages::mesh::{MeshScene, PosedMesh, Textures};
 use octolume::stages::pixels::camera::PixelRays;
 use octolume::stages::pixels::projection;
 use octolume::stages::pixels::{NO_DEPTH, ViewParams, picture};

@@ -1,10 +1,11 @@
 //! Voxel transformation: exact where motion is exact, within derived bounds of the reference elsewhere.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
+use octolume::data::matrix::Matrix3x4;
 use octolume::settings::Filter;
 use octolume::stages::build::mark_ref::{fragments, inside};
 use octolume::stages::fill::gather_ref::Fragment;
-use octolume::stages::transform::{Matrix3x4, rigid_ref};
+use octolume::stages::transform::rigid_ref;
 use proptest::prelude::*;
 
 use crate::moving::{

@@ -1,9 +1,10 @@
 //! Skinned voxels: blended matrices against their reference, and the joints that are hard.
 
 use glam::{DAffine3, DVec3};
+use octolume::data::matrix::Matrix3x4;
 use octolume::data::pages::SegmentOrder;
 use octolume::data::voxel_cache::VoxelJoints;
-use octolume::stages::transform::{Matrix3x4, skinned_ref};
+use octolume::stages::transform::skinned_ref;
 
 use crate::device::gpu;
 use crate::moving::{

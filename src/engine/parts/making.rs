@@ -1,6 +1,7 @@
 //! What a part is made with: the request, the method that calls for it, the keys of its inputs.
 
 use super::Parts;
+use crate::data::mesh::PosedMesh;
 use crate::data::octree::{OctreeRef, OctreeSizes, PointerLayout, Slot};
 use crate::data::pages::SegmentOrder;
 use crate::engine::EngineError;
@@ -8,7 +9,6 @@ use crate::engine::request::{Method, Request};
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 use crate::plan::{Key, Keys, Part, Pass, calls_for};
 use crate::settings::{Look, Lookup};
-use crate::stages::mesh::PosedMesh;
 use crate::stages::pixels::ViewParams;
 use crate::stages::pixels::camera::PixelRays;
 use crate::stages::sample::pointer_layout;

@@ -27,11 +27,11 @@ pub use making::{Making, part_and_pass};
 use super::EngineError;
 use super::pool::{Keeper, Pinned, Pool, Turn};
 use super::times::PassTiming;
+use crate::data::mesh::MeshScene;
 use crate::data::octree::OctreeParams;
 use crate::digest::Digest;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 use crate::plan::{Held, Key, Part, PlannedPart};
-use crate::stages::mesh::MeshScene;
 
 /// Bytes that come back when the recording has run.
 pub type Read = (GpuBuffer, Range<u64>);

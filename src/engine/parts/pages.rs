@@ -2,6 +2,7 @@
 //! back. What each voxel's thread reads is listed here; nothing runs on the GPU.
 
 use super::{Made, Making, Parts, Read};
+use crate::data::matrix::Matrix3x4;
 use crate::data::octree::Slot;
 use crate::data::pages::{self, WorkItem, WorkList, WorkPart};
 use crate::engine::EngineError;
@@ -9,7 +10,7 @@ use crate::engine::request::Method;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 use crate::plan::Part;
 use crate::prepare::Prepared;
-use crate::stages::transform::{self, Matrix3x4};
+use crate::stages::transform;
 
 #[derive(Debug, Default)]
 pub struct Pages {

@@ -8,12 +8,12 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, DVec4};
 
 use crate::data::grid::Grid;
+use crate::data::mesh::PosedMesh;
 use crate::gpu::{
     Constant, DEPTH_FORMAT, Gpu, GpuError, GpuTexture, Mirror, RasterTarget, Recorder, constants, mirror,
 };
 use crate::lights::PosedLight;
 use crate::scene::{Aabb, LightKind};
-use crate::stages::mesh::PosedMesh;
 use crate::stages::pixels::NO_DEPTH;
 
 pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;

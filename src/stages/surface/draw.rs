@@ -9,10 +9,10 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::data::grid::Grid;
+use crate::data::mesh::PosedMesh;
 use crate::data::surface_image::{FORMAT, SurfaceImage};
 use crate::gpu::{Gpu, GpuTexture, Mirror, RasterTarget, Recorder, mirror};
 use crate::scene::OrbitCamera;
-use crate::stages::mesh::PosedMesh;
 use crate::stages::pixels::NO_DEPTH;
 use crate::stages::pixels::projection::{clip_from_camera, padded_axes};
 

@@ -18,13 +18,6 @@ pub struct TransformParams {
     pub first_thread: u32,
 }
 
-/// `grid_from_cache` as the GPU reads it, row by row: a cache position to cell coordinates.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct Matrix3x4 {
-    pub rows: [[f32; 4]; 3],
-}
-
 /// A tile of an object's cache and what moves it. Mirror of `Part` in shaders/shared/part.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -39,9 +32,7 @@ pub struct PartRecord {
 
 pub const MIRRORS: &[Mirror] = &[
     mirror!(TransformParams, "shared/move_voxel.wgsl", "TransformParams", grid_cells, first_thread),
-    mirror!(Matrix3x4, "shared/move_voxel.wgsl", "Matrix3x4", rows),
     mirror!(PartRecord, "shared/part.wgsl", "Part", origin, first_matrix, joints_skew, object, emission_skew, pad),
-    mirror!(Matrix3x4, "shared/posed_mesh.wgsl", "MeshMatrix", rows),
 ];
 
 /// The buffers of a transformation. Rigid parts come first in the work list, then skinned ones.

@@ -10,11 +10,11 @@ use super::DrawParams;
 use super::params::draw_params;
 use super::scene::{Batch, MeshScene, Place, material};
 use super::texture::{Encoding, MeshTexture};
+use crate::data::matrix::Matrix3x4;
 use crate::data::octree::Slot;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, PassBuilder, RasterKernel};
 use crate::scene::{Material, Motion, Object, Pose, Primitive};
 use crate::settings::Hidden;
-use crate::stages::transform::Matrix3x4;
 
 /// What is uploaded of a scene, as a pose has it. Objects whose matrices are not finite are left out.
 #[derive(Debug)]
