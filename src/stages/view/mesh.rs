@@ -46,7 +46,7 @@ pub struct MeshView<'a> {
 }
 
 /// Draws what is uploaded of the scene as it is posed: from mesh to the camera's space in cells, as
-/// [`camera_from_world`] composes it.
+/// [`camera_from_world`](crate::stages::pixels::projection::camera_from_world) composes it.
 pub fn record(gpu: &Gpu, frame: &mut Recorder, posed: &PosedMesh<'_>, seen: MeshView<'_>, target: MeshTarget<'_>) {
     frame.raster(attachments(target));
     let size_px = target.picture.size_px();

@@ -1,6 +1,6 @@
 //! Pictures of what the stages made: the octree ray-marched (Fig. 8), the posed triangles, and the
-//! moved voxels over the exact ones. In: buffers of the stages, a camera, a [`Look`]. Out: a
-//! [`Picture`], gamma-encoded 8-bit colour and the distance to what is seen.
+//! moved voxels over the exact ones. In: buffers of the stages, a camera, a [`Look`](crate::settings::Look). Out: a
+//! [`Picture`](crate::stages::pixels::Picture), gamma-encoded 8-bit colour and the distance to what is seen.
 
 pub mod ghost;
 pub mod ghost_ref;
