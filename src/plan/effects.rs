@@ -1,7 +1,7 @@
 //! Which effects a view calls for, of all that could be simulated.
 
 use super::Asked;
-use crate::settings::lighting::{Lighting, Shadows};
+use crate::settings::lighting::Shadows;
 use crate::settings::{SliceValue, SurfaceView, View};
 
 /// What cones are asked for; otherwise why they are not.
@@ -38,7 +38,7 @@ impl ConesAsked {
             occlusion: ask(&[
                 elsewhere,
                 (!is_guessed && !is_shown, "occlusion is not looked at"),
-                (!is_shown && !has_sky(&asked.settings.lighting), "no sky to occlude"),
+                (!is_shown && !asked.settings.lighting.has_sky(), "no sky to occlude"),
             ]),
             specular: ask(&[
                 elsewhere,
@@ -85,16 +85,12 @@ pub(super) fn marches_shadows(asked: &Asked) -> bool {
     asked.scene.lights > 0 && asked.settings.lighting.shadows == Shadows::March && shows_direct(asked)
 }
 
-pub(super) fn has_sky(lighting: &Lighting) -> bool {
-    lighting.sky_nits.iter().any(|channel| *channel > 0.0)
-}
-
 pub(super) fn emits(asked: &Asked) -> bool {
     asked.scene.emissive_voxels > 0 && asked.settings.lighting.emission > 0.0
 }
 
 pub(super) fn is_lit(asked: &Asked) -> bool {
-    asked.scene.lights > 0 || has_sky(&asked.settings.lighting) || emits(asked)
+    asked.scene.lights > 0 || asked.settings.lighting.has_sky() || emits(asked)
 }
 
 /// The store is read for its opacity alone.

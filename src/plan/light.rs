@@ -1,6 +1,6 @@
 //! Rules of the parts that light the octree. Nobody looks at light, or there is none: no part, no buffer.
 
-use super::effects::{ConesAsked, emits, has_sky, is_lit, only_opacity, shows_direct};
+use super::effects::{ConesAsked, emits, is_lit, only_opacity, shows_direct};
 use super::keys::{Keys, Wanted};
 use super::voxels::{from_octree, from_voxels, octree_skipped, unless};
 use super::{Asked, Held, Key, Part, Pass, WantedFor};
@@ -71,7 +71,7 @@ fn radiance(asked: &Asked, keys: &Keys) -> Wanted {
         Some(emission) => key.input(changed, Part::Emission, emission).method(changed, &lighting.emission),
         None => key,
     };
-    let gathers = has_sky(lighting) || lighting.bounces > 0;
+    let gathers = lighting.has_sky() || lighting.bounces > 0;
     let cones = gathers.then_some((lighting.sky_nits, lighting.bounces, lighting.cones, lighting.cone_degrees));
     Ok(key.method(changed, &cones).build())
 }
@@ -95,7 +95,7 @@ pub(super) fn left_out(pass: Pass, asked: &Asked) -> Option<&'static str> {
     let because = |reason| dark(asked).or(reason);
     match pass {
         Pass::Illuminate => because((asked.scene.lights == 0).then_some("no light in the scene")),
-        Pass::GatherSky => because((!has_sky(lighting)).then_some("the sky is black")),
+        Pass::GatherSky => because((!lighting.has_sky()).then_some("the sky is black")),
         Pass::Bounces => because(
             (lighting.bounces == 0)
                 .then_some("no bounces are asked for")

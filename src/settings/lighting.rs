@@ -127,6 +127,11 @@ impl Lighting {
     pub const SHADOW_OFFSETS_VOXELS: RangeInclusive<f64> = 0.0..=16.0;
     pub const CONE_DEGREES: RangeInclusive<f64> = 0.0..=120.0;
 
+    /// Light comes from where nothing is in the way.
+    pub fn has_sky(&self) -> bool {
+        self.sky_nits.iter().any(|channel| *channel > 0.0)
+    }
+
     /// What an added light is called that nobody has named.
     pub fn free_name(&self) -> String {
         let name = |number: usize| format!("light {number}");

@@ -109,7 +109,7 @@ impl Reference {
                     true => Display { exposure: shown.engine.exposure(), curve },
                     false => Display { exposure: 1.0, curve: ToneCurve::Linear },
                 },
-                shows_sky: part.is_light() && settings.lighting.sky_nits != [0.0; 3],
+                shows_sky: part.is_light() && settings.lighting.has_sky(),
             };
             self.cones = Some((shown.results, Arc::new(picture)));
         }

@@ -141,8 +141,8 @@ impl Parts {
         let composed = self.composed.made(making.key(Part::ComposedLight)?, "shown light")?;
         let shown = composed.shown.made("shown light")?;
         let [least, most] = making.request.depth_range();
-        let is_sky = making.method.settings().lighting.sky_nits != [0.0; 3];
-        let params = ShowSurfacesParams { least: least as f32, most: most as f32, sky: u32::from(is_sky), pad: 0 };
+        let has_sky = making.method.settings().lighting.has_sky();
+        let params = ShowSurfacesParams { least: least as f32, most: most as f32, sky: u32::from(has_sky), pad: 0 };
         let measured = making.keys.get(Part::Exposure).and_then(|key| self.exposure.get(key)?.exposure.get());
         let exposure = match (look.exposure_stops, measured) {
             (Some(stops), _) => ShownExposure::Set(stops.exp2()),
