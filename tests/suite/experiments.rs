@@ -10,7 +10,7 @@ use octolume::experiment::{self, BenchOptions, Experiment, ExperimentError, Foun
 use octolume::gpu::Gpu;
 use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
-use octolume::scene::Material;
+use octolume::scene::{Material, Scene};
 use octolume::settings::lighting::SunShines;
 use octolume::settings::{Hidden, MotionSettings, Settings, View};
 use serde_json::Value;
@@ -24,11 +24,14 @@ const REBUILD: BenchOptions = BenchOptions { warmup: 1, rebuild: true, light: fa
 
 /// A square under the sun on a small grid.
 fn subject() -> Subject {
+    subject_of(one_square(Material::default()))
+}
+
+fn subject_of(scene: Scene) -> Subject {
     let mut settings = Settings::default();
     settings.discretization.grid = 64;
     settings.lighting.sun.shines = SunShines::Always;
-    let scene = Arc::new(one_square(Material::default()));
-    let prepared = prepare(scene, &settings.discretization, None, &Progress::default());
+    let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default());
     Subject { prepared: Arc::new(prepared.unwrap_or_else(|error| panic!("{error}"))), settings, runs: RUNS }
 }
 
@@ -146,6 +149,23 @@ fn an_error_ends_an_experiment_and_is_told_once() {
     let error = experiment.advance(SLICE).expect_err("no light");
     assert!(matches!(error, ExperimentError::NoLight(_)), "{error}");
     assert_eq!(experiment.advance(SLICE).expect("told once"), State::Cancelled);
+}
+
+#[test]
+fn a_scene_without_voxels_is_named_by_every_experiment_that_compares_them() {
+    let gpu = Arc::new(device::open());
+    let empty = || subject_of(Scene { name: "nothing".to_owned(), ..Scene::default() });
+    let voxels = experiment::voxels(&gpu, empty(), poses(), false);
+    for mut experiment in [voxels, experiment::shadows(&gpu, empty(), poses())] {
+        let error = loop {
+            match experiment.advance(SLICE) {
+                Ok(state) => assert_eq!(state, State::Working, "no error"),
+                Err(error) => break error,
+            }
+            experiment.wait().expect("the GPU is there");
+        };
+        assert_eq!(error.to_string(), "nothing has no voxels to compare");
+    }
 }
 
 /// One filter's report without its times.

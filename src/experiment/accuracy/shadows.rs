@@ -130,6 +130,9 @@ async fn lights(lab: &mut Lab, settings: &Settings, share: Share) -> Result<Vec<
     lab.say(building, "building voxels");
     lab.run(&settings, NO_PICTURE, building).await?;
     let voxels = lab.engine.read_voxels()?;
+    if voxels.cells.is_empty() {
+        return Err(ExperimentError::NoVoxels(prepared.scene.name.clone()));
+    }
     let cast =
         lab.work((casting, "casting rays to lights"), move |progress| cast(&prepared, shining, (&voxels, progress)));
     let (lights, warnings) = cast.await??;
