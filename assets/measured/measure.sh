@@ -6,7 +6,7 @@
 # Scenes are looked for by name anywhere below SCENES_FOLDER: Fox.glb, CesiumMan.glb, Knight.glb, robot.glb,
 # mannequiny.glb, CornellBox.glb and Sponza.gltf (docs/performance.md says where they come from). A file
 # whose scene is not there is left as it is. Afterwards `OCTOLUME_WRITE_TABLES=1 cargo test --test suite doc_tables`
-# writes the tables of the documentation. Needs jq and cargo; takes about 20 minutes on two cores without a GPU.
+# writes the tables of the documentation. Needs jq and cargo; takes about 10 minutes on two cores without a GPU.
 set -euo pipefail
 
 if (($# < 2)); then

@@ -77,16 +77,6 @@ impl Scene {
         MotionReport { objects, hidden, stretching }
     }
 
-    /// By index into [`Scene::objects`]; see [`MotionReport::hidden`].
-    pub fn hidden_objects(&self) -> Vec<usize> {
-        self.objects_and_hidden().1
-    }
-
-    /// See [`MotionReport::warnings`].
-    pub fn motion_warnings(&self, span: f64) -> Vec<String> {
-        self.motion_report(span).warnings()
-    }
-
     /// By index into [`Scene::objects`]; see [`MotionReport::stretching`].
     pub fn stretching_objects(&self, span: f64) -> Vec<(usize, f64)> {
         self.strays(&self.objects(), span)

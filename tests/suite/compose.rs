@@ -19,7 +19,8 @@ use wgpu::BufferUsages;
 use crate::device::gpu;
 use crate::view_rig::{self, Numbers, SIZE_PX, pixels};
 
-const ALL: [SurfaceView; 10] = [
+/// Every part of the light and of the surfaces that can be shown.
+pub const ALL: [SurfaceView; 10] = [
     SurfaceView::Final,
     SurfaceView::Direct,
     SurfaceView::Diffuse,

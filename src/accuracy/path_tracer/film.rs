@@ -225,12 +225,7 @@ impl Film {
         self.counted().map(|(sums, samples)| (sums.coverage / samples.max(1.0)) as f32).collect()
     }
 
-    /// Of each pixel's mean luminance, were samples independent: evenly spread ones err less.
-    pub fn standard_errors(&self, term: Term) -> Vec<f32> {
-        self.counted().map(|(sums, samples)| sums.variance(term, samples.max(1.0)).sqrt() as f32).collect()
-    }
-
-    /// Of the whole picture.
+    /// Of the whole picture, were samples independent: evenly spread ones err less.
     pub fn standard_error(&self, term: Term) -> StandardError {
         let count = self.pixels.len().max(1) as f64;
         let variance: f64 = self.counted().map(|(sums, samples)| sums.variance(term, samples.max(1.0))).sum();

@@ -4,11 +4,12 @@ use glam::DVec3;
 use octolume::scene::OrbitCamera;
 use octolume::settings::lighting::{AddedLight, LightEdit, Opacity, Shadows, SunShines};
 use octolume::settings::{
-    AlphaRule, ColorBy, Filter, Lookup, Sampling, Settings, SliceAxis, SliceValue, SurfaceView, ToneCurve, View,
-    VoxelAnchor,
+    AlphaRule, ColorBy, Filter, Lookup, Sampling, Settings, SliceAxis, SliceValue, ToneCurve, View, VoxelAnchor,
 };
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
+
+use crate::compose::ALL as ALL_SURFACES;
 
 type Change = fn(&mut Settings, &mut TestRng);
 
@@ -34,18 +35,6 @@ const COLORS: [ColorBy; 7] = [
     ColorBy::Radiance,
     ColorBy::Irradiance,
 ];
-const SURFACES: [SurfaceView; 10] = [
-    SurfaceView::Final,
-    SurfaceView::Direct,
-    SurfaceView::Diffuse,
-    SurfaceView::Specular,
-    SurfaceView::Ao,
-    SurfaceView::Irradiance,
-    SurfaceView::Albedo,
-    SurfaceView::Normal,
-    SurfaceView::Depth,
-    SurfaceView::Roughness,
-];
 const LOOKUPS: [Lookup; 3] = [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers];
 const SAMPLINGS: [Sampling; 3] = [Sampling::Nearest, Sampling::Trilinear, Sampling::Quadrilinear];
 
@@ -55,7 +44,7 @@ const CHANGES: [Change; 48] = [
     |s, r| s.look.view = one_of(r, &VIEWS),
     |s, r| s.look.color = one_of(r, &COLORS),
     |s, r| s.look.color = one_of(r, &COLORS),
-    |s, r| s.look.surface = one_of(r, &SURFACES),
+    |s, r| s.look.surface = one_of(r, &ALL_SURFACES),
     |s, _| s.look.view = View::Surfaces,
     |s, _| (s.look.view, s.look.color) = (View::Voxels, ColorBy::Radiance),
     |s, r| s.look.level = one_of(r, &[None, Some(2), Some(5)]),
