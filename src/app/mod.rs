@@ -23,7 +23,6 @@ mod layout;
 mod legend;
 mod loader;
 mod measuring;
-mod mentions;
 mod node_overlay;
 mod opening;
 mod outline;

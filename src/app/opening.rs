@@ -99,7 +99,7 @@ impl App {
                 format!("Opened {name}: {count} voxels in {:.0} ms; {}.", prepared.voxelize_ms, prepared.origins),
             );
             for warning in &prepared.warnings {
-                self.journal.note(Severity::Warning, warning);
+                self.journal.note(Severity::Warning, &warning.sentence);
             }
         }
         self.stage.set_prepared(prepared);

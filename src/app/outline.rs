@@ -3,7 +3,6 @@
 
 use std::ops::AddAssign;
 
-use super::mentions::Mentions;
 use crate::prepare::Prepared;
 use crate::scene::Scene;
 
@@ -31,7 +30,7 @@ impl AddAssign for Contents {
     }
 }
 
-/// All vectors but `roots` and `warnings` are by node.
+/// All vectors but `roots` are by node.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Outline {
     pub roots: Vec<usize>,
@@ -41,8 +40,6 @@ pub struct Outline {
     pub objects: Vec<Option<usize>>,
     pub is_joint: Vec<bool>,
     pub is_warned: Vec<bool>,
-    /// What each of [`Prepared::warnings`] is about.
-    pub warnings: Vec<Mentions>,
     /// Nodes above this depth are unfolded at first.
     pub unfolded_depth: usize,
 }
@@ -56,6 +53,7 @@ impl Outline {
             contents: vec![Contents { nodes: 1, ..Contents::default() }; count],
             objects: vec![None; count],
             is_joint: vec![false; count],
+            is_warned: vec![false; count],
             ..Self::default()
         };
         for (index, node) in scene.nodes.iter().enumerate() {
@@ -73,10 +71,7 @@ impl Outline {
                 outline.contents[parent] += contents;
             }
         }
-        outline.warnings = prepared.warnings.iter().map(|warning| Mentions::of(warning)).collect();
-        let mut all = Mentions::default();
-        outline.warnings.iter().for_each(|mentions| all.extend(mentions));
-        outline.is_warned = scene.nodes.iter().map(|node| all.are_about(node)).collect();
+        prepared.warnings.iter().flat_map(|warning| &warning.nodes).for_each(|&node| outline.is_warned[node] = true);
         outline.unfolded_depth = unfolded_depth(scene);
         outline
     }

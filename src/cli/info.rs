@@ -6,6 +6,7 @@ use bytesize::ByteSize;
 use clap::Args;
 use octolume::engine::LevelReport;
 use octolume::prepare::Prepared;
+use octolume::scene::Warning;
 use octolume::scene::bounds::Aabb;
 use octolume::settings::{Settings, View};
 use serde::Serialize;
@@ -108,7 +109,7 @@ impl Facts {
             shown_scene: scene.shown_scene,
             extensions: scene.extensions.clone(),
             memory_bytes: scene.memory_bytes,
-            warnings: prepared.warnings.clone(),
+            warnings: prepared.warnings.iter().map(Warning::to_string).collect(),
             bounds: prepared.bounds.map(Bounds::from),
             grid: settings.discretization.grid,
             span: prepared.grid.span,

@@ -1,5 +1,6 @@
 //! Standard output carries results alone; everything else goes to standard error.
 
+use std::fmt;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::sync::Arc;
@@ -28,7 +29,7 @@ pub fn message(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
-pub fn warnings<'a>(sentences: impl IntoIterator<Item = &'a String>) {
+pub fn warnings(sentences: impl IntoIterator<Item = impl fmt::Display>) {
     sentences.into_iter().for_each(|sentence| message(&format!("warning: {sentence}")));
 }
 

@@ -12,7 +12,7 @@ use super::{PrepareError, Prepared, PreparedObject, lattice};
 use crate::data::voxel_cache::VoxelCache;
 use crate::disk_cache::{ContentKey, DiskCache};
 use crate::progress::Progress;
-use crate::scene::{Material, Mesh, Motion, Scene};
+use crate::scene::{Material, Mesh, Motion, Scene, Warning};
 use crate::settings::VoxelizationMode;
 use crate::stages::voxelize::{self, TexturePyramids, VoxelizeError, VoxelizeInput, VoxelizePart};
 
@@ -102,11 +102,12 @@ impl<'a> CacheSearch<'a> {
         Ok((caches, CacheOrigins::of(&origins)))
     }
 
-    /// A sentence, if the disk cache did not take what it should keep.
-    pub fn into_warning(self) -> Option<String> {
+    /// A warning, if the disk cache did not take what it should keep.
+    pub fn into_warning(self) -> Option<Warning> {
         let (cause, disk) = (self.refused.into_inner()?, self.disk?);
         let folder = disk.folder().display();
-        Some(format!("voxels are not kept for the next opening: {folder} cannot be written ({cause})"))
+        let sentence = format!("voxels are not kept for the next opening: {folder} cannot be written ({cause})");
+        Some(Warning::new(sentence))
     }
 
     fn find(&self, CacheToFind { object, kept }: CacheToFind) -> Result<(Arc<VoxelCache>, Origin), PrepareError> {

@@ -4,17 +4,18 @@ use std::sync::Arc;
 
 use crate::data::light::pack_emission;
 use crate::data::voxel_cache::VoxelCache;
+use crate::scene::Warning;
 
-/// Largest channel of any voxel, nits, and a sentence where others are too dim to be held beside it.
-pub fn brightest(scene: &str, caches: &[Arc<VoxelCache>]) -> (f32, Option<String>) {
+/// Largest channel of any voxel, nits, and a warning where others are too dim to be held beside it.
+pub fn brightest(scene: &str, caches: &[Arc<VoxelCache>]) -> (f32, Option<Warning>) {
     let channels = || caches.iter().flat_map(|cache| &cache.emission).flatten();
     let brightest = channels().copied().fold(0.0, f32::max);
     let is_lost = |voxel: &&[f32; 3]| **voxel != [0.0; 3] && pack_emission(**voxel, brightest) == [0; 2];
     let lost = caches.iter().flat_map(|cache| &cache.emission).filter(is_lost).count();
     let warning = (lost > 0).then(|| {
-        format!(
+        Warning::new(format!(
             "{scene}: {lost} voxels emit less than a two-millionth of the brightest ({brightest} nits); they are dark"
-        )
+        ))
     });
     (brightest, warning)
 }
@@ -30,6 +31,6 @@ mod tests {
         assert_eq!(brightest("lamp", &[cache(vec![[0.0, 2.0, 1.0]]), cache(vec![[0.0; 3]])]), (2.0, None));
         let (nits, warning) = brightest("lamp", &[cache(vec![[4e6, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 4.0, 0.0]])]);
         assert_eq!(nits, 4e6);
-        assert!(warning.is_some_and(|warning| warning.starts_with("lamp: 1 voxels emit less")));
+        assert!(warning.is_some_and(|warning| warning.sentence.starts_with("lamp: 1 voxels emit less")));
     }
 }

@@ -21,7 +21,7 @@ use crate::data::grid::Grid;
 use crate::data::voxel_cache::{Tile, VoxelCache};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::bounds::Aabb;
-use crate::scene::{Motion, Object, Scene};
+use crate::scene::{Motion, Object, Scene, Warning};
 use crate::settings::Discretization;
 use crate::settings::VoxelizationMode;
 use crate::stages::voxelize::{TexturePyramids, VoxelizeError};
@@ -50,7 +50,7 @@ pub struct Prepared {
     pub brightest_emission: f32,
     /// The scene's posed bounds over all its animation; `None` where there is nothing to see.
     pub bounds: Option<Aabb>,
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
     pub voxelize_ms: f64,
     keys: Vec<CacheKey>,
     texture_hashes: Arc<TextureHashes>,

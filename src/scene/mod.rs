@@ -16,6 +16,7 @@ pub mod polar;
 pub mod pose;
 pub mod skin;
 mod stretch;
+pub mod warning;
 
 use std::collections::HashSet;
 use std::path::PathBuf;
@@ -31,6 +32,7 @@ pub use mesh::{Mesh, Primitive};
 pub use motion::{Motion, MotionReport, Object};
 pub use pose::Pose;
 pub use skin::Skin;
+pub use warning::{FilePart, Warning};
 
 /// One opened file. Immutable once loaded; everything that changes lives in a [`Pose`].
 #[derive(Clone, Debug, Default)]
@@ -53,8 +55,8 @@ pub struct Scene {
     pub memory_bytes: u64,
     /// Names of the glTF extensions the file uses.
     pub extensions: Vec<String>,
-    /// What was repaired, left out or approximated, a sentence each.
-    pub warnings: Vec<String>,
+    /// What was repaired, left out or approximated.
+    pub warnings: Vec<Warning>,
 }
 
 impl Scene {

@@ -7,7 +7,7 @@
 
 use glam::DMat3;
 
-use super::{Channel, Interpolation, LocalTransform, Property, Scene};
+use super::{Channel, Interpolation, LocalTransform, Property, Scene, Warning};
 
 /// One drawable: a node with a mesh. The unit of Object I-O (section 4.2).
 #[derive(Clone, Debug)]
@@ -49,16 +49,17 @@ pub struct MotionReport {
 
 impl MotionReport {
     /// A sentence for each object that is hidden or stretches.
-    pub fn warnings(&self) -> Vec<String> {
-        let name = |object: usize| &self.objects[object].name;
-        let hidden = self.hidden.iter().map(|&object| {
-            format!("object \"{}\" is hidden: its matrix is singular or not finite at all times", name(object))
-        });
+    pub fn warnings(&self) -> Vec<Warning> {
+        let about = |object: usize, what: &str| {
+            let object = &self.objects[object];
+            Warning::new(format!("object \"{}\" {what}", object.name)).at(object.node)
+        };
+        let hidden = self
+            .hidden
+            .iter()
+            .map(|&object| about(object, "is hidden: its matrix is singular or not finite at all times"));
         let stretching = self.stretching.iter().map(|&(object, cells)| {
-            format!(
-                "object \"{}\" stretches by up to {cells:.1} cells; it is moved with its mean stretch",
-                name(object)
-            )
+            about(object, &format!("stretches by up to {cells:.1} cells; it is moved with its mean stretch"))
         });
         hidden.chain(stretching).collect()
     }

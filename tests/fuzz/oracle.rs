@@ -49,7 +49,11 @@ pub fn check(_: &Turn, file: &[u8]) {
     assert!(taken <= MEMORY_BUDGET_BYTES + MEMORY_SLACK_BYTES, "{taken} bytes for a file of {}", file.len());
     match opened {
         Ok(scene) => {
-            assert_eq!(scene.warnings.iter().find(|warning| warning.contains('\n')), None, "a sentence is one line");
+            assert_eq!(
+                scene.warnings.iter().find(|warning| warning.sentence.contains('\n')),
+                None,
+                "a sentence is one line"
+            );
             assert!(scene.warnings.len() <= MOST_WARNINGS, "{} warnings", scene.warnings.len());
             show(scene);
         }

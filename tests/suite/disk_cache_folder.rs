@@ -26,7 +26,7 @@ fn a_folder_that_takes_nothing_is_one_warning_and_everything_goes_on() {
     let [known @ .., warning] = prepared.warnings.as_slice() else { panic!("a warning is missing") };
     assert_eq!(known, plain.warnings);
     let start = format!("voxels are not kept for the next opening: {} cannot be written (", disk.folder().display());
-    assert!(warning.starts_with(&start) && warning.ends_with(')'), "{warning}");
+    assert!(warning.sentence.starts_with(&start) && warning.sentence.ends_with(')'), "{warning}");
     assert_eq!((disk.contents().ok(), disk.cap_bytes()), (None, DEFAULT_CAP_BYTES));
 }
 

@@ -120,3 +120,4 @@ mod voxelization;
 mod voxelization_payload;
 mod voxelization_surface;
 mod walks;
+mod warnings;

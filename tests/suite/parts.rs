@@ -145,7 +145,7 @@ fn a_broken_image_costs_its_textures_only() {
     assert_eq!(scene.textures.len(), 1);
     assert_eq!(scene.materials[0].base_color_texture, Some(scene::TextureRef::new(0, 0)));
     assert_eq!(scene.materials[0].emissive, [0.0; 3], "an emission whose mask is lost lights nothing");
-    assert!(scene.warnings[0].starts_with("image 0 cannot be decoded"), "{:?}", scene.warnings);
+    assert!(scene.warnings[0].sentence.starts_with("image 0 cannot be decoded"), "{:?}", scene.warnings);
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn cameras_and_lights_are_read() {
     let spot = LightKind::Spot { range: Some(7.0), inner_cone_radians: 0.0, outer_cone_radians: 0.5 };
     assert_eq!((scene.lights[0].kind, scene.lights[1].kind), (LightKind::Directional, spot));
     let warned = "camera 0: its projection makes no sense; it is left out";
-    assert!(scene.warnings.iter().any(|warning| warning == warned), "{:?}", scene.warnings);
+    assert!(scene.warnings.iter().any(|warning| warning.sentence == *warned), "{:?}", scene.warnings);
     document.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = json!(2);
     assert_eq!(document.open().expect("opens").nodes[1].light, None);
 }
@@ -203,7 +203,7 @@ fn static_morph_weights_are_baked_and_moving_ones_named() {
     );
     let warnings = document.open().expect("opens").warnings;
     let named = "animation 0 \"a\": the morph weights of \"n\" move, which is not shown; its resting shape moves";
-    assert!(warnings.iter().any(|warning| warning == named), "{warnings:?}");
+    assert!(warnings.iter().any(|warning| warning.sentence == *named), "{warnings:?}");
 }
 
 /// KHR_mesh_quantization: integers as they are, or as fractions, in elements padded to four bytes.

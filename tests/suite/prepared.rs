@@ -164,7 +164,7 @@ fn singular_objects_are_hidden_and_objects_at_no_finite_place_left_out_and_the_r
     for (local, is_hidden) in [(nan, false), (infinite, false), (flat, true), (zero, true)] {
         let both = prepared(with_second(LocalTransform::Matrix(local)), Some(0.06));
         // Hidden for ever: a warning of the scene. Not finite now: an object of the frame.
-        let named = both.warnings.iter().any(|warning| warning.contains("\"second\""));
+        let named = both.warnings.iter().any(|warning| warning.sentence.contains("\"second\""));
         let left_out = folded(&both, &STILL).left_out;
         assert_eq!((named, left_out), (is_hidden, if is_hidden { vec![] } else { vec![1] }), "{local}");
         assert_eq!(both.grid, alone.grid, "{local}");

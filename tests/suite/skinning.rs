@@ -72,7 +72,7 @@ fn joints_out_of_range_are_refused() {
 fn a_skin_without_weights_is_undone() {
     let scene = Document::with_skin(1, &[]).open().expect("opens");
     assert_eq!(scene.nodes[0].skin, None);
-    assert!(scene.warnings[0].contains("its mesh has no joint weights; it moves as a whole"));
+    assert!(scene.warnings[0].sentence.contains("its mesh has no joint weights; it moves as a whole"));
 }
 
 #[test]

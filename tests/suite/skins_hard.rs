@@ -98,7 +98,11 @@ fn eight_influences_become_the_four_strongest() {
     let mean: f64 = kept.iter().map(|(joint, weight)| f64::from(*joint) * weight / total).sum();
     let found = scene.posed_positions(&scene.objects()[0], 0, &scene.pose(None, 0.0))[0];
     assert!((found - DVec3::new(1.0 + mean, 0.0, 0.0)).abs().max_element() < 8.0 * f64::from(f32::EPSILON), "{found}");
-    assert!(scene.warnings.iter().any(|warning| warning.contains("more than 4 joints")), "{:?}", scene.warnings);
+    assert!(
+        scene.warnings.iter().any(|warning| warning.sentence.contains("more than 4 joints")),
+        "{:?}",
+        scene.warnings
+    );
 }
 
 fn prepared(scene: Scene, grid: u32) -> Prepared {

@@ -26,16 +26,9 @@ pub fn ui(ui: &mut Ui, panel: TreePanel<'_>, node: usize) {
         carried_ui(ui, panel, node);
         below_ui(ui, panel, node);
     });
-    for warning in warnings(panel, node) {
-        ui.label(RichText::new(warning).color(theme::WARNING));
+    for warning in panel.prepared.warnings.iter().filter(|warning| warning.nodes.binary_search(&node).is_ok()) {
+        ui.label(RichText::new(&warning.sentence).color(theme::WARNING));
     }
-}
-
-/// The sentences that name it.
-fn warnings<'a>(panel: TreePanel<'a>, node: usize) -> impl Iterator<Item = &'a String> {
-    let carried = &panel.prepared.scene.nodes[node];
-    let warnings = panel.prepared.warnings.iter().zip(&panel.outline.warnings);
-    warnings.filter(move |(_, mentions)| mentions.are_about(carried)).map(|(warning, _)| warning)
 }
 
 fn mesh_ui(ui: &mut Ui, scene: &Scene, mesh: usize) {

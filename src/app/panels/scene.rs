@@ -10,7 +10,7 @@ use crate::app::loader::file_name;
 use crate::app::theme;
 use crate::data::voxel_cache::CacheVoxel;
 use crate::prepare::Prepared;
-use crate::scene::{Motion, builtin};
+use crate::scene::{Motion, Warning, builtin};
 
 pub fn ui(ui: &mut Ui, scene: Option<&Prepared>, path: &mut String, recent: &[PathBuf]) -> Vec<Command> {
     let mut commands = open_ui(ui, path, recent);
@@ -120,13 +120,13 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
     });
 }
 
-fn warnings_ui(ui: &mut Ui, warnings: &[String]) {
+fn warnings_ui(ui: &mut Ui, warnings: &[Warning]) {
     ui.label(RichText::new("Warnings").color(theme::WEAK));
     if warnings.is_empty() {
         ui.label("none");
     } else {
         let count = RichText::new(format!("{}, see the log", warnings.len())).color(theme::WARNING);
-        ui.label(count).on_hover_text(warnings.join("\n"));
+        ui.label(count).on_hover_text(warnings.iter().map(Warning::to_string).collect::<Vec<_>>().join("\n"));
     }
     ui.end_row();
 }

@@ -6,28 +6,25 @@ use gltf::json::{Accessor, accessor::Type, validation::Checked};
 use rayon::prelude::*;
 use serde_json::Value;
 
-use super::{
-    accessor::element_bytes,
-    error::{Defect, label},
-    json::Few,
-    source::Source,
-};
+use super::{accessor::element_bytes, error::Defect, file_object::FileObject, json::Few, source::Source};
 use crate::progress::Progress;
+use crate::scene::Warning;
 
-pub(super) fn check(source: &Source, progress: &Progress, warnings: &mut Vec<String>) -> Result<(), Defect> {
+pub(super) fn check(source: &Source, progress: &Progress, warnings: &mut Vec<Warning>) -> Result<(), Defect> {
     let accessors = &source.root.accessors;
     progress.add_total(accessors.len() as u64);
     let mut allowance = source.check_allowance_bytes();
     let checked: Vec<bool> = accessors.iter().map(|accessor| take(&mut allowance, declared_bytes(accessor))).collect();
     if checked.contains(&false) {
-        warnings.push("accessors: they overlap so often that not all of their values were checked".to_owned());
+        let sentence = "accessors: they overlap so often that not all of their values were checked";
+        warnings.push(Warning::new(sentence));
     }
-    let found: Vec<Result<Vec<String>, Defect>> = (accessors.par_iter().enumerate())
+    let found: Vec<Result<Vec<Warning>, Defect>> = (accessors.par_iter().enumerate())
         .map(|(index, accessor)| {
             let defects = defects(source, accessor, checked[index]);
             progress.advance(1)?;
-            let object = label("accessor", index, accessor.name.as_deref());
-            Ok(defects.into_iter().map(|defect| format!("{object}: it {defect}")).collect())
+            let object = FileObject::item("accessor", index, accessor.name.as_deref());
+            Ok(defects.into_iter().map(|defect| object.warning(format!("it {defect}"))).collect())
         })
         .collect();
     let mut few = Few::default();

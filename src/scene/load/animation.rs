@@ -9,11 +9,12 @@ use gltf::json::{
 };
 
 use super::{
-    error::{About, Defect, label},
+    error::{About, Defect},
+    file_object::{FileObject, label},
     nodes::unit_quaternion,
     source::Source,
 };
-use crate::scene::{Channel, Clip, Interpolation, LocalTransform, Node, Property};
+use crate::scene::{Channel, Clip, Interpolation, LocalTransform, Node, Property, Warning};
 
 /// Quaternions of normalised bytes are this far from unit length.
 const UNIT_TOLERANCE: f64 = 0.01;
@@ -25,9 +26,9 @@ pub(super) fn load(
     animation: &json::Animation,
     rank: &[usize],
     nodes: &[Node],
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<Clip, Defect> {
-    let name = label("animation", index, animation.name.as_deref());
+    let name = FileObject::item("animation", index, animation.name.as_deref());
     let mut channels: Vec<Channel> = Vec::new();
     let mut taken = HashSet::new();
     let mut morphed = BTreeSet::new();
@@ -36,8 +37,9 @@ pub(super) fn load(
         let Some(&node) = rank.get(target.node.value()) else {
             return Err(Defect::new(name, "animates a node that does not exist"));
         };
-        let object =
-            |what: &str| format!("{name}, {what} of {}", label("node", target.node.value(), Some(&nodes[node].name)));
+        let object = |what: &str| {
+            name.member(format!("{what} of {}", label("node", target.node.value(), Some(&nodes[node].name))))
+        };
         let property = match target.path {
             Checked::Valid(FileProperty::Translation) => Property::Translation,
             Checked::Valid(FileProperty::Rotation) => Property::Rotation,
@@ -47,13 +49,15 @@ pub(super) fn load(
                 continue;
             }
             Checked::Invalid => {
-                warnings.push(format!("{}, which glTF does not know; it is left out", object("a property")));
+                let sentence = format!("{}, which glTF does not know; it is left out", object("a property"));
+                let warning = Warning { part: name.part(), ..Warning::new(sentence) }.at(node);
+                warnings.push(warning);
                 continue;
             }
         };
         let object = || object(property.name());
         if let LocalTransform::Matrix(_) = nodes[node].local {
-            warnings.push(format!("{}: its node has a matrix, which cannot be animated; it is left out", object()));
+            warnings.push(object().warning("its node has a matrix, which cannot be animated; it is left out").at(node));
             continue;
         }
         if !taken.insert((node, property)) {
@@ -63,26 +67,31 @@ pub(super) fn load(
         let sampler = sampler.ok_or_else(|| Defect::new(object(), "names a sampler that does not exist"))?;
         let times = &source.root.accessors[sampler.input.value()];
         if times.buffer_view.is_none() && times.sparse.is_none() && times.count.0 > 1 {
-            warnings.push(format!("{}: its key times have no data; it is left out", object()));
+            warnings.push(object().warning("its key times have no data; it is left out").at(node));
             continue;
         }
         let mut channel = read_channel(source, sampler, node, property).about(object)?;
         if property == Property::Rotation {
             let off = make_unit(&mut channel).about(object)?;
             if off > UNIT_TOLERANCE {
-                warnings.push(format!(
-                    "{}: its rotations are not unit quaternions (off by {off:.3}); they are normalised",
+                warnings.push(
                     object()
-                ));
+                        .warning(format!(
+                            "its rotations are not unit quaternions (off by {off:.3}); they are normalised"
+                        ))
+                        .at(node),
+                );
             }
         }
         channel.check().about(object)?;
         channels.push(channel);
     }
     for node in morphed {
-        let node = &nodes[node].name;
-        warnings
-            .push(format!("{name}: the morph weights of \"{node}\" move, which is not shown; its resting shape moves"));
+        let moved = &nodes[node].name;
+        warnings.push(
+            name.warning(format!("the morph weights of \"{moved}\" move, which is not shown; its resting shape moves"))
+                .at(node),
+        );
     }
     Ok(Clip {
         name: animation.name.clone().unwrap_or_else(|| format!("animation {index}")),

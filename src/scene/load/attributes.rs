@@ -13,8 +13,10 @@ use super::{
     accessor::Elements,
     draco,
     error::{About, Defect, counted},
+    file_object::FileObject,
     source::Source,
 };
+use crate::scene::Warning;
 
 /// What one primitive of the file says about its vertices.
 pub(super) struct Attributes<'a> {
@@ -24,7 +26,7 @@ pub(super) struct Attributes<'a> {
     /// Morph targets that have weight.
     morphs: Vec<(&'a MorphTarget, f32)>,
     /// As messages name it.
-    pub primitive: String,
+    pub primitive: FileObject,
     /// Of the file, by vertex of the scene.
     pub vertices: Vec<u32>,
     /// How many the file has.
@@ -35,15 +37,15 @@ impl<'a> Attributes<'a> {
     /// `weights` are the mesh's, one a morph target; those that are missing are 0.
     pub fn new(
         source: &'a Source,
-        primitive: String,
+        primitive: FileObject,
         declared: &'a Primitive,
         weights: &[f32],
-        warnings: &mut Vec<String>,
+        warnings: &mut Vec<Warning>,
     ) -> Result<Self, Defect> {
         let targets = declared.targets.as_deref().unwrap_or_default();
         if !weights.is_empty() && weights.len() != targets.len() {
             let (weights, targets) = (weights.len(), counted(targets.len(), "morph target", "morph targets"));
-            warnings.push(format!("{primitive}: it has {targets}, and its mesh or node has {weights} weights"));
+            warnings.push(primitive.warning(format!("it has {targets}, and its mesh or node has {weights} weights")));
         }
         let draco = draco::Decoded::of(source, &primitive, declared)?;
         let morphs = targets.iter().zip(weights.iter().copied()).filter(|&(_, weight)| weight != 0.0).collect();
@@ -57,8 +59,8 @@ impl<'a> Attributes<'a> {
         self.vertices.len()
     }
 
-    pub fn object(&self, semantic: &Semantic) -> String {
-        format!("{}, {}", self.primitive, semantic.to_string())
+    pub fn object(&self, semantic: &Semantic) -> FileObject {
+        self.primitive.member(semantic.to_string())
     }
 
     pub fn has(&self, semantic: Semantic) -> bool {
@@ -114,7 +116,7 @@ impl<'a> Attributes<'a> {
         rows: &mut [[f32; N]],
     ) -> Result<(), Defect> {
         let Some(accessor) = displacements(target, semantic) else { return Ok(()) };
-        let object = || format!("{}, morph target", self.object(semantic));
+        let object = || self.object(semantic).member("morph target");
         let elements = self.source.elements(accessor).about(object)?;
         if elements.count != self.declared_count {
             let cause = format!("has {} elements, and POSITION has {}", elements.count, self.declared_count);
@@ -154,7 +156,7 @@ impl<'a> Attributes<'a> {
 
     /// Vertex numbers in drawing order, all in range.
     pub fn corners(&self) -> Result<Vec<u32>, Defect> {
-        let object = || format!("{}, indices", self.primitive);
+        let object = || self.primitive.member("indices");
         let count = u32::try_from(self.declared_count)
             .map_err(|_| Defect::new(self.object(&Semantic::Positions), "has more than 2^32 vertices"))?;
         let budget = |corners: usize| self.source.budget.spend_on(corners, size_of::<u32>()).about(object);

@@ -2,11 +2,11 @@
 
 use gltf::json::{self, Root, camera::Type as CameraType, validation::Checked};
 
-use super::error::label;
-use crate::scene::{Projection, SceneCamera};
+use super::file_object::FileObject;
+use crate::scene::{Projection, SceneCamera, Warning};
 
 /// The cameras that make sense, and for each of the file where it went.
-pub(super) fn load(root: &Root, warnings: &mut Vec<String>) -> (Vec<SceneCamera>, Vec<Option<usize>>) {
+pub(super) fn load(root: &Root, warnings: &mut Vec<Warning>) -> (Vec<SceneCamera>, Vec<Option<usize>>) {
     let mut cameras = Vec::new();
     let places = root.cameras.iter().enumerate().map(|(index, camera)| match projection(camera) {
         Some(projection) => {
@@ -15,8 +15,8 @@ pub(super) fn load(root: &Root, warnings: &mut Vec<String>) -> (Vec<SceneCamera>
             Some(cameras.len() - 1)
         }
         None => {
-            let object = label("camera", index, camera.name.as_deref());
-            warnings.push(format!("{object}: its projection makes no sense; it is left out"));
+            let object = FileObject::item("camera", index, camera.name.as_deref());
+            warnings.push(object.warning("its projection makes no sense; it is left out"));
             None
         }
     });

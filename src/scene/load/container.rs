@@ -1,7 +1,8 @@
 //! The container: plain JSON, or GLB with a JSON chunk and at most one binary chunk. What can be
 //! read in spite of a defect is read, with a warning.
 
-use super::error::Defect;
+use super::{error::Defect, file_object::FileObject};
+use crate::scene::Warning;
 
 const HEADER_BYTES: usize = 12;
 const CHUNK_HEADER_BYTES: usize = 8;
@@ -15,7 +16,7 @@ pub(super) struct Container<'a> {
     pub json: &'a [u8],
     /// The binary chunk of a GLB.
     pub binary: Option<&'a [u8]>,
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 impl<'a> Container<'a> {
@@ -26,7 +27,7 @@ impl<'a> Container<'a> {
         let mut container = Self { json: bytes, ..Self::default() };
         if let Some(json) = bytes.strip_prefix(BYTE_ORDER_MARK) {
             container.json = json;
-            container.warnings.push("document: it starts with a byte order mark, which is ignored".to_owned());
+            container.warnings.push(Warning::new("document: it starts with a byte order mark, which is ignored"));
         }
         Ok(container)
     }
@@ -43,7 +44,9 @@ impl<'a> Container<'a> {
         let mut container = Self::default();
         if length < bytes.len() {
             let rest = bytes.len() - length;
-            container.warnings.push(format!("GLB header: {rest} bytes after the declared end are ignored"));
+            container
+                .warnings
+                .push(Warning::new(format!("GLB header: {rest} bytes after the declared end are ignored")));
         }
         let mut rest = &bytes[HEADER_BYTES..length];
         for number in 0.. {
@@ -61,21 +64,21 @@ impl<'a> Container<'a> {
     }
 
     fn take(&mut self, number: usize, kind: u32, data: &'a [u8]) -> Result<(), Defect> {
-        let object = format!("GLB chunk {number}");
+        let object = FileObject::other(format!("GLB chunk {number}"));
         match (number, kind) {
             (0, JSON_CHUNK) => self.json = data,
             (0, kind) => return Err(Defect::new(object, format!("is of type {kind:#010x}, and JSON must come first"))),
-            (_, JSON_CHUNK) => self.warnings.push(format!("{object}: a second JSON chunk, which is ignored")),
+            (_, JSON_CHUNK) => self.warnings.push(object.warning("a second JSON chunk, which is ignored")),
             (_, BINARY_CHUNK) if self.binary.is_some() => {
-                self.warnings.push(format!("{object}: a second binary chunk, which is ignored"));
+                self.warnings.push(object.warning("a second binary chunk, which is ignored"));
             }
             (_, BINARY_CHUNK) => {
                 if number != 1 {
-                    self.warnings.push(format!("{object}: the binary chunk, which should be chunk 1"));
+                    self.warnings.push(object.warning("the binary chunk, which should be chunk 1"));
                 }
                 self.binary = Some(data);
             }
-            (_, kind) => self.warnings.push(format!("{object}: of unknown type {kind:#010x}, which is ignored")),
+            (_, kind) => self.warnings.push(object.warning(format!("of unknown type {kind:#010x}, which is ignored"))),
         }
         Ok(())
     }

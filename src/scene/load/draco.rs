@@ -13,6 +13,7 @@ use gltf::json::{
 use super::{
     accessor::{Elements, element_bytes},
     error::{About, Defect},
+    file_object::FileObject,
     source::Source,
 };
 
@@ -23,12 +24,10 @@ pub(super) struct Decoded(PackedGeometry);
 
 impl Decoded {
     /// `None` where the primitive is not compressed.
-    pub fn of(source: &Source, object: &str, primitive: &Primitive) -> Result<Option<Self>, Defect> {
+    pub fn of(source: &Source, object: &FileObject, primitive: &Primitive) -> Result<Option<Self>, Defect> {
         let Some(extensions) = &primitive.extensions else { return Ok(None) };
         let Some(declared) = extensions.others.get(EXTENSION) else { return Ok(None) };
-        decode(source, primitive, declared)
-            .map(|geometry| Some(Self(geometry)))
-            .about(|| format!("{object}, {EXTENSION}"))
+        decode(source, primitive, declared).map(|geometry| Some(Self(geometry))).about(|| object.member(EXTENSION))
     }
 
     /// An attribute, if the stream holds it.

@@ -42,11 +42,11 @@ impl From<Cancelled> for Defect {
 
 /// Turns a bare cause into a [`Defect`] of the object it is about.
 pub(super) trait About<T> {
-    fn about(self, object: impl FnOnce() -> String) -> Result<T, Defect>;
+    fn about<N: Into<String>>(self, object: impl FnOnce() -> N) -> Result<T, Defect>;
 }
 
 impl<T> About<T> for Result<T, String> {
-    fn about(self, object: impl FnOnce() -> String) -> Result<T, Defect> {
+    fn about<N: Into<String>>(self, object: impl FnOnce() -> N) -> Result<T, Defect> {
         self.map_err(|cause| Defect::new(object(), cause))
     }
 }
@@ -54,14 +54,6 @@ impl<T> About<T> for Result<T, String> {
 /// Texts of other libraries may have several lines; a sentence has one.
 pub(in crate::scene::load) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// How messages name an object: `mesh 3 "wheel"`.
-pub(in crate::scene::load) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
-    match name {
-        Some(name) if !name.is_empty() => format!("{kind} {index} \"{name}\""),
-        _ => format!("{kind} {index}"),
-    }
 }
 
 /// `1 vertex`, `3 vertices`.

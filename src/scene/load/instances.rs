@@ -5,11 +5,12 @@ use gltf::json::{Index, Node as FileNode, accessor::Accessor};
 use serde_json::Value;
 
 use super::{
-    error::{About, Defect, label},
+    error::{About, Defect},
+    file_object::FileObject,
     nodes::unit_quaternion,
     source::Source,
 };
-use crate::scene::{LocalTransform, Node, Trs};
+use crate::scene::{LocalTransform, Node, Trs, Warning};
 
 const EXTENSION: &str = "EXT_mesh_gpu_instancing";
 
@@ -18,14 +19,14 @@ pub(super) fn expand(
     source: &Source,
     rank: &[usize],
     nodes: &mut Vec<Node>,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<(), Defect> {
     for (index, file_node) in source.root.nodes.iter().enumerate() {
         let place = rank[index];
         let Some(attributes) = declared(file_node) else { continue };
-        let object = || format!("{}, {EXTENSION}", label("node", index, file_node.name.as_deref()));
+        let object = || FileObject::item("node", index, file_node.name.as_deref()).member(EXTENSION);
         if nodes[place].skin.is_some() {
-            warnings.push(format!("{}: it is ignored, for a skinned mesh stands where its joints are", object()));
+            warnings.push(object().warning("it is ignored, for a skinned mesh stands where its joints are"));
             continue;
         }
         let Some(mesh) = nodes[place].mesh.take() else { continue };

@@ -8,15 +8,15 @@ use gltf::json::{
     validation::Checked,
 };
 
-use super::error::label;
-use crate::scene::{Light, LightKind};
+use super::file_object::FileObject;
+use crate::scene::{Light, LightKind, Warning};
 
 /// The lights that make sense, and for each of the file where it went.
-pub(super) fn load(root: &Root, warnings: &mut Vec<String>) -> (Vec<Light>, Vec<Option<usize>>) {
+pub(super) fn load(root: &Root, warnings: &mut Vec<Warning>) -> (Vec<Light>, Vec<Option<usize>>) {
     let declared = root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
     let mut lights = Vec::new();
     let places = declared.iter().flat_map(|lights| &lights.lights).enumerate().map(|(index, light)| {
-        let object = label("light", index, light.name.as_deref());
+        let object = FileObject::item("light", index, light.name.as_deref());
         match kind(light, &object, warnings) {
             Ok(kind) => {
                 let name = light.name.clone().unwrap_or_else(|| format!("light {index}"));
@@ -24,7 +24,7 @@ pub(super) fn load(root: &Root, warnings: &mut Vec<String>) -> (Vec<Light>, Vec<
                 Some(lights.len() - 1)
             }
             Err(cause) => {
-                warnings.push(format!("{object}: it {cause}; it is left out"));
+                warnings.push(object.warning(format!("it {cause}; it is left out")));
                 None
             }
         }
@@ -33,7 +33,7 @@ pub(super) fn load(root: &Root, warnings: &mut Vec<String>) -> (Vec<Light>, Vec<
     (lights, places)
 }
 
-fn kind(light: &FileLight, object: &str, warnings: &mut Vec<String>) -> Result<LightKind, String> {
+fn kind(light: &FileLight, object: &FileObject, warnings: &mut Vec<Warning>) -> Result<LightKind, String> {
     if !light.intensity.is_finite() || !light.color.iter().all(|channel| channel.is_finite()) {
         return Err("has a colour or intensity that is not finite".to_owned());
     }
@@ -45,7 +45,7 @@ fn kind(light: &FileLight, object: &str, warnings: &mut Vec<String>) -> Result<L
             let (inner, outer) =
                 spot.as_ref().map_or((0.0, FRAC_PI_4), |spot| (spot.inner_cone_angle, spot.outer_cone_angle));
             if spot.is_none() {
-                warnings.push(format!("{object}: it is a spot light without a cone; it gets glTF's default"));
+                warnings.push(object.warning("it is a spot light without a cone; it gets glTF's default"));
             }
             match 0.0 <= inner && inner < outer && outer <= std::f32::consts::FRAC_PI_2 {
                 true => Ok(LightKind::Spot { range, inner_cone_radians: inner, outer_cone_radians: outer }),

@@ -6,18 +6,13 @@ use gltf::json::{
     validation::Checked,
 };
 
-use super::{
-    error::{Defect, label},
-    source::Source,
-    spec_gloss,
-    texture::Textures,
-};
-use crate::scene::{AlphaMode, Material};
+use super::{error::Defect, file_object::FileObject, source::Source, spec_gloss, texture::Textures};
+use crate::scene::{AlphaMode, Material, Warning};
 
 pub(super) fn load(
     source: &Source,
     textures: &mut Textures,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Material>, Defect> {
     let materials = source.root.materials.iter().enumerate();
     materials.map(|(index, material)| load_one(source, index, material, textures, warnings)).collect()
@@ -28,9 +23,9 @@ fn load_one(
     index: usize,
     material: &json::Material,
     textures: &mut Textures,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<Material, Defect> {
-    let object = label("material", index, material.name.as_deref());
+    let object = FileObject::item("material", index, material.name.as_deref());
     let extensions = material.extensions.as_ref();
     let pbr = &material.pbr_metallic_roughness;
     let emissive_texture = textures.slot(&object, material.emissive_texture.as_ref(), warnings);
@@ -61,18 +56,18 @@ fn load_one(
     };
     if let Some(declared) = extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
         spec_gloss::convert(source, &object, declared, textures, &mut loaded, warnings)
-            .map_err(|cause| Defect::new(&object, cause))?;
+            .map_err(|cause| Defect::new(object.clone(), cause))?;
     }
     check(loaded, object)
 }
 
-fn alpha_mode(material: &json::Material, object: &str, warnings: &mut Vec<String>) -> AlphaMode {
+fn alpha_mode(material: &json::Material, object: &FileObject, warnings: &mut Vec<Warning>) -> AlphaMode {
     match material.alpha_mode {
         Checked::Valid(FileAlphaMode::Opaque) => AlphaMode::Opaque,
         Checked::Valid(FileAlphaMode::Mask) => AlphaMode::Mask { cutoff: material.alpha_cutoff.unwrap_or_default().0 },
         Checked::Valid(FileAlphaMode::Blend) => AlphaMode::Blend,
         Checked::Invalid => {
-            warnings.push(format!("{object}: its alpha mode is one that glTF does not know; it is shown opaque"));
+            warnings.push(object.warning("its alpha mode is one that glTF does not know; it is shown opaque"));
             AlphaMode::Opaque
         }
     }
@@ -81,16 +76,18 @@ fn alpha_mode(material: &json::Material, object: &str, warnings: &mut Vec<String
 /// The typed document keeps this one extension of a normal texture untyped.
 fn normal_transform(
     normal: &json::material::NormalTexture,
-    object: &str,
-    warnings: &mut Vec<String>,
+    object: &FileObject,
+    warnings: &mut Vec<Warning>,
 ) -> Option<json::extensions::texture::TextureTransform> {
     let declared = normal.extensions.as_ref()?.others.get("KHR_texture_transform")?;
     serde::Deserialize::deserialize(declared)
-        .map_err(|error| warnings.push(format!("{object}: the transform of its normal texture is ignored: {error}")))
+        .map_err(|error| {
+            warnings.push(object.warning(format!("the transform of its normal texture is ignored: {error}")))
+        })
         .ok()
 }
 
-fn check(material: Material, object: String) -> Result<Material, Defect> {
+fn check(material: Material, object: FileObject) -> Result<Material, Defect> {
     let factors = [material.metallic, material.roughness, material.normal_scale];
     let mut numbers = factors.iter().chain(&material.base_color).chain(&material.emissive);
     if numbers.all(|number| number.is_finite()) {

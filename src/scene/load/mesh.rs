@@ -10,34 +10,35 @@ use gltf::json::{
 
 use super::{
     attributes::Attributes,
-    error::{Defect, counted, label},
+    error::{Defect, counted},
+    file_object::FileObject,
     source::Source,
     weights::Influences,
 };
-use crate::scene::{Mesh, Primitive};
+use crate::scene::{Mesh, Primitive, Warning};
 
 /// A mesh and how many of its primitives have no surface.
 pub(super) struct Loaded {
     pub mesh: Mesh,
     pub without_surface: usize,
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 /// `weights` are those of its morph targets: its own, or those of the node that shows it.
 pub(super) fn load(source: &Source, index: usize, weights: &[f32]) -> Result<Loaded, Defect> {
     let mesh = &source.root.meshes[index];
-    let name = label("mesh", index, mesh.name.as_deref());
+    let name = FileObject::item("mesh", index, mesh.name.as_deref());
     let mut loaded = Loaded {
         mesh: Mesh { name: mesh.name.clone().unwrap_or_else(|| format!("mesh {index}")), primitives: Vec::new() },
         without_surface: 0,
         warnings: Vec::new(),
     };
     for (number, primitive) in mesh.primitives.iter().enumerate() {
-        let object = format!("{name}, primitive {number}");
+        let object = name.member(format_args!("primitive {number}"));
         match primitive.mode {
             Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => {
                 if !primitive.attributes.contains_key(&Checked::Valid(Semantic::Positions)) {
-                    loaded.warnings.push(format!("{object}: it has no POSITION; it is left out"));
+                    loaded.warnings.push(object.warning("it has no POSITION; it is left out"));
                     continue;
                 }
                 let attributes = Attributes::new(source, object, primitive, weights, &mut loaded.warnings)?;
@@ -54,13 +55,13 @@ fn load_primitive(
     mut attributes: Attributes,
     primitive: &json::mesh::Primitive,
     mode: Mode,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<Primitive, Defect> {
     let corners = attributes.corners()?;
     let mut triangles = triangles(&corners, mode);
     if mode == Mode::Triangles && corners.len() % 3 != 0 {
         let left_out = counted(corners.len() % 3, "vertex", "vertices");
-        warnings.push(format!("{}: {left_out} left out: too few at its end for a triangle", attributes.primitive));
+        warnings.push(attributes.primitive.warning(format!("{left_out} left out: too few at its end for a triangle")));
     }
     let flat = !attributes.has(Semantic::Normals);
     attributes.vertices = if flat { unshare(&mut triangles) } else { compact(&mut triangles) };

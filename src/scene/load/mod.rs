@@ -19,6 +19,7 @@ mod cameras;
 mod container;
 mod draco;
 mod error;
+mod file_object;
 mod image;
 mod instances;
 mod json;
@@ -32,6 +33,7 @@ mod shapes;
 mod skin;
 mod source;
 mod spec_gloss;
+mod subjects;
 mod texture;
 mod uri;
 mod usage_check;
@@ -52,7 +54,7 @@ use self::{
     source::Source,
     texture::Textures,
 };
-use super::{Clip, Node, Scene};
+use super::{Clip, Node, Scene, Warning};
 use crate::progress::Progress;
 
 /// Opens a file. `progress` counts its images, meshes and clips, and can cancel.
@@ -112,11 +114,13 @@ fn read(
     let mut meshes = shapes.meshes;
     let skins = skin::load_all(&source, &hierarchy.rank, &mut warnings)?;
     skin::check_roots(&skins, &nodes, &mut warnings);
-    skin::bind(&mut nodes, &mut meshes, &skins, &mut warnings)?;
+    skin::bind(&mut nodes, &mut meshes, &skins, &hierarchy, &mut warnings)?;
     let clips = read_clips(&source, &hierarchy, &nodes, progress, &mut warnings)?;
     instances::expand(&source, &hierarchy.rank, &mut nodes, &mut warnings)?;
     let mut textures = Textures::load(&source, progress, &mut warnings)?;
     let materials = material::load(&source, &mut textures, &mut warnings)?;
+    let mut warnings = readable(warnings);
+    subjects::find(&mut warnings, root, &hierarchy.rank);
     Ok(Scene {
         name: String::new(),
         source: None,
@@ -132,18 +136,20 @@ fn read(
         shown_scene,
         memory_bytes: budget.spent_bytes(),
         extensions: root.extensions_used.clone(),
-        warnings: readable(&warnings),
+        warnings,
     })
 }
 
 /// A line each, and not more than a person reads.
-fn readable(warnings: &[String]) -> Vec<String> {
+fn readable(mut warnings: Vec<Warning>) -> Vec<Warning> {
     const MOST: usize = 200;
-    let mut readable: Vec<String> = warnings.iter().take(MOST).map(|warning| one_line(warning)).collect();
-    if warnings.len() > MOST {
-        readable.push(format!("{} more warnings about the file", warnings.len() - MOST));
+    let more = warnings.len().saturating_sub(MOST);
+    warnings.truncate(MOST);
+    warnings.iter_mut().for_each(|warning| warning.sentence = one_line(&warning.sentence));
+    if more > 0 {
+        warnings.push(Warning::new(format!("{more} more warnings about the file")));
     }
-    readable
+    warnings
 }
 
 fn scene_names(root: &Root) -> Vec<String> {
@@ -151,7 +157,7 @@ fn scene_names(root: &Root) -> Vec<String> {
     scenes.map(|(index, scene)| scene.name.clone().unwrap_or_else(|| format!("scene {index}"))).collect()
 }
 
-fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<String>) -> Result<Option<usize>, Defect> {
+fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<Warning>) -> Result<Option<usize>, Defect> {
     let names = scene_names(root);
     if let Some(wanted) = &options.scene {
         let known = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
@@ -161,7 +167,8 @@ fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<String>) -
     }
     let shown = root.scene.map(|scene| scene.value()).or((!names.is_empty()).then_some(0));
     if let Some(shown) = shown.filter(|_| names.len() > 1) {
-        warnings.push(format!("the file holds {} scenes; \"{}\" is shown", names.len(), names[shown]));
+        let sentence = format!("the file holds {} scenes; \"{}\" is shown", names.len(), names[shown]);
+        warnings.push(Warning::new(sentence));
     }
     Ok(shown)
 }
@@ -171,7 +178,7 @@ fn read_clips(
     hierarchy: &Hierarchy,
     nodes: &[Node],
     progress: &Progress,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Clip>, Defect> {
     let animations = &source.root.animations;
     progress.add_total(animations.len() as u64);

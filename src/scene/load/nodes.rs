@@ -3,8 +3,11 @@
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use gltf::json::{self, Root};
 
-use super::error::{Defect, counted, label};
-use crate::scene::{LocalTransform, Node, Trs};
+use super::{
+    error::{Defect, counted},
+    file_object::{FileObject, label},
+};
+use crate::scene::{LocalTransform, Node, Trs, Warning};
 
 /// Where each node of the file ends up.
 pub(super) struct Hierarchy {
@@ -43,6 +46,11 @@ impl Hierarchy {
         }
     }
 
+    /// The file's number of a node of the scene.
+    pub fn file_node(&self, node: usize) -> usize {
+        self.order[node]
+    }
+
     /// All nodes; those outside the shown scene keep their transform (joints may be among them) but show nothing.
     /// `meshes` are by the file's nodes, the others by the file's cameras and lights.
     pub fn nodes(
@@ -50,30 +58,31 @@ impl Hierarchy {
         root: &Root,
         shown_scene: Option<usize>,
         [meshes, cameras, lights]: [&[Option<usize>]; 3],
-        warnings: &mut Vec<String>,
+        warnings: &mut Vec<Warning>,
     ) -> Result<Vec<Node>, Defect> {
         let drawn = self.drawn(root, shown_scene);
         for (index, scene) in root.scenes.iter().enumerate() {
             for node in scene.nodes.iter().map(|node| node.value()).filter(|&node| self.parents[node].is_some()) {
-                let [scene, node] = [label("scene", index, scene.name.as_deref()), label("node", node, None)];
-                warnings.push(format!("{scene}: {node} is not a root of its tree, and is drawn with what is below it"));
+                let scene = FileObject::item("scene", index, scene.name.as_deref());
+                let cause = format!("node {node} is not a root of its tree, and is drawn with what is below it");
+                warnings.push(scene.warning(cause).at(self.rank[node]));
             }
         }
         let hidden = self.order.iter().filter(|&&node| !drawn[node] && root.nodes[node].mesh.is_some()).count();
         if hidden > 0 {
             let left_out = counted(hidden, "node with a mesh is", "nodes with a mesh are");
-            warnings.push(format!("{left_out} not in the scene that is shown"));
+            warnings.push(Warning::new(format!("{left_out} not in the scene that is shown")));
         }
         self.order
             .iter()
             .map(|&index| {
                 let node = &root.nodes[index];
-                let object = || label("node", index, node.name.as_deref());
+                let object = || FileObject::item("node", index, node.name.as_deref());
                 let local = local_transform(node, &object, warnings)?;
                 let shown = drawn[index];
                 let joints = node.skin.iter().flat_map(|skin| &root.skins[skin.value()].joints);
                 if shown && joints.clone().any(|joint| !drawn[joint.value()]) {
-                    warnings.push(format!("{}: joints of its skin are not in the scene that is shown", object()));
+                    warnings.push(object().warning("joints of its skin are not in the scene that is shown"));
                 }
                 Ok(Node {
                     name: node.name.clone().unwrap_or_else(|| format!("node {index}")),
@@ -104,8 +113,8 @@ impl Hierarchy {
 
 fn local_transform(
     node: &json::Node,
-    object: &dyn Fn() -> String,
-    warnings: &mut Vec<String>,
+    object: &dyn Fn() -> FileObject,
+    warnings: &mut Vec<Warning>,
 ) -> Result<LocalTransform, Defect> {
     let local = match &node.matrix {
         Some(columns) => LocalTransform::Matrix(affine(&columns.map(f64::from), object, warnings)),
@@ -133,10 +142,10 @@ pub(super) fn unit_quaternion(xyzw: [f64; 4]) -> Option<DQuat> {
 }
 
 /// Column-major; a fourth row other than (0, 0, 0, 1) has no meaning in glTF.
-pub(super) fn affine(columns: &[f64; 16], object: &dyn Fn() -> String, warnings: &mut Vec<String>) -> DMat4 {
+pub(super) fn affine(columns: &[f64; 16], object: &dyn Fn() -> FileObject, warnings: &mut Vec<Warning>) -> DMat4 {
     let mut matrix = DMat4::from_cols_array(columns);
     if matrix.row(3) != DVec4::W {
-        warnings.push(format!("{}: the fourth row of its matrix is not (0, 0, 0, 1) and is ignored", object()));
+        warnings.push(object().warning("the fourth row of its matrix is not (0, 0, 0, 1) and is ignored"));
         matrix = DMat4::from_cols_array_2d(&std::array::from_fn(|column| {
             let [x, y, z, _] = matrix.col(column).to_array();
             [x, y, z, if column == 3 { 1.0 } else { 0.0 }]
@@ -145,6 +154,6 @@ pub(super) fn affine(columns: &[f64; 16], object: &dyn Fn() -> String, warnings:
     matrix
 }
 
-fn light_of(node: &json::Node) -> Option<usize> {
+pub(super) fn light_of(node: &json::Node) -> Option<usize> {
     Some(node.extensions.as_ref()?.khr_lights_punctual.as_ref()?.light.value())
 }

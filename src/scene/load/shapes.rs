@@ -11,6 +11,7 @@ use super::{
     mesh,
     source::Source,
 };
+use crate::scene::Warning;
 use crate::{progress::Progress, scene::Mesh};
 
 /// All meshes, and for each node of the file which one it shows.
@@ -26,7 +27,7 @@ struct Shape<'a> {
 }
 
 impl Shapes {
-    pub fn load(source: &Source, progress: &Progress, warnings: &mut Vec<String>) -> Result<Self, Defect> {
+    pub fn load(source: &Source, progress: &Progress, warnings: &mut Vec<Warning>) -> Result<Self, Defect> {
         let (shapes, by_node) = list(&source.root);
         progress.add_total(shapes.len() as u64);
         let results: Vec<Result<mesh::Loaded, Defect>> = (shapes.par_iter())
@@ -49,7 +50,7 @@ impl Shapes {
         }
         if without_surface > 0 {
             let left_out = counted(without_surface, "primitive", "primitives");
-            warnings.push(format!("{left_out} left out: points and lines have no surface"));
+            warnings.push(Warning::new(format!("{left_out} left out: points and lines have no surface")));
         }
         Ok(Self { meshes, by_node })
     }

@@ -6,8 +6,9 @@ use std::{borrow::Cow, collections::BTreeMap, path::Path};
 use gltf::json::{Buffer, Index, Root, buffer::View};
 use rayon::prelude::*;
 
-use super::{budget::Budget, container::Container, error::Defect, json, meshopt, uri::Target};
+use super::{budget::Budget, container::Container, error::Defect, file_object::FileObject, json, meshopt, uri::Target};
 use crate::progress::Progress;
+use crate::scene::Warning;
 
 /// A document whose references all lead somewhere, and its bytes. A buffer or view that cannot be
 /// had is an error only where something reads it.
@@ -27,7 +28,7 @@ impl<'a> Source<'a> {
         base_dir: Option<&'a Path>,
         budget: &'a Budget,
         progress: &Progress,
-        warnings: &mut Vec<String>,
+        warnings: &mut Vec<Warning>,
     ) -> Result<Self, Defect> {
         let container = Container::read(bytes)?;
         warnings.extend(container.warnings);
@@ -37,7 +38,10 @@ impl<'a> Source<'a> {
         for (index, buffer) in source.root.buffers.iter().enumerate() {
             let bytes = source.read_buffer(index, buffer, container.binary, warnings);
             if let (Err(cause), false) = (&bytes, source.is_fallback(index)) {
-                warnings.push(cause.clone());
+                warnings.push(Warning {
+                    part: FileObject::item("buffer", index, None).part(),
+                    ..Warning::new(cause.clone())
+                });
             }
             source.buffers.push(bytes);
         }
@@ -50,7 +54,7 @@ impl<'a> Source<'a> {
         index: usize,
         buffer: &Buffer,
         binary: Option<&'a [u8]>,
-        warnings: &mut Vec<String>,
+        warnings: &mut Vec<Warning>,
     ) -> Result<Cow<'a, [u8]>, String> {
         let mut bytes: Cow<'a, [u8]> = match (&buffer.uri, binary) {
             (Some(uri), _) => Target::of(uri, self.base_dir)
@@ -67,7 +71,8 @@ impl<'a> Source<'a> {
         // The binary chunk of a GLB is padded to a multiple of 4 bytes.
         let padding = if buffer.uri.is_none() { 3 } else { 0 };
         if bytes.len() > declared + padding {
-            warnings.push(format!("buffer {index}: it holds {} bytes and declares {declared}", bytes.len()));
+            let cause = format!("it holds {} bytes and declares {declared}", bytes.len());
+            warnings.push(FileObject::item("buffer", index, None).warning(cause));
         }
         match &mut bytes {
             Cow::Borrowed(bytes) => *bytes = &bytes[..declared],

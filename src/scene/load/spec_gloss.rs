@@ -11,9 +11,9 @@ use std::sync::Arc;
 use gltf::json::extensions::material::PbrSpecularGlossiness;
 use image::{Rgba, RgbaImage};
 
-use super::{source::Source, texture::Textures};
+use super::{file_object::FileObject, source::Source, texture::Textures};
 use crate::color::linear_from_gamma;
-use crate::scene::{Material, Texture};
+use crate::scene::{Material, Texture, Warning};
 
 /// s₀: reflectance of a dielectric at normal incidence.
 const DIELECTRIC: f32 = 0.04;
@@ -22,11 +22,11 @@ const SHORTEST: f32 = 1e-6;
 /// Puts the converted values into `material`. Errors are causes.
 pub(super) fn convert(
     source: &Source,
-    object: &str,
+    object: &FileObject,
     declared: &PbrSpecularGlossiness,
     textures: &mut Textures,
     material: &mut Material,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<(), String> {
     let [red, green, blue, alpha] = declared.diffuse_factor.0;
     let (specular, gloss) = (declared.specular_factor.0, declared.glossiness_factor.0);

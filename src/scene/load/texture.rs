@@ -13,15 +13,10 @@ use gltf::json::{
 use image::RgbaImage;
 use rayon::prelude::*;
 
-use super::{
-    error::{Defect, label},
-    image as image_file,
-    source::Source,
-    uri::Target,
-};
+use super::{error::Defect, file_object::FileObject, image as image_file, source::Source, uri::Target};
 use crate::{
     progress::Progress,
-    scene::{Texture, TextureRef, Wrap},
+    scene::{Texture, TextureRef, Warning, Wrap},
 };
 
 /// The textures that could be read, and for each of the file where it went.
@@ -31,22 +26,23 @@ pub(super) struct Textures {
 }
 
 impl Textures {
-    pub fn load(source: &Source, progress: &Progress, warnings: &mut Vec<String>) -> Result<Self, Defect> {
+    pub fn load(source: &Source, progress: &Progress, warnings: &mut Vec<Warning>) -> Result<Self, Defect> {
         let root = &source.root;
         let images = decode_images(source, progress)?;
         for (index, image) in images.iter().enumerate() {
             if let Err(cause) = image {
-                let object = label("image", index, root.images[index].name.as_deref());
-                warnings.push(format!("{object} {cause}; materials go without it"));
+                let object = FileObject::item("image", index, root.images[index].name.as_deref());
+                let sentence = format!("{object} {cause}; materials go without it");
+                warnings.push(Warning { part: object.part(), ..Warning::new(sentence) });
             }
         }
         let mut textures = Self { list: Vec::new(), places: Vec::new() };
         for (index, texture) in root.textures.iter().enumerate() {
-            let object = label("texture", index, texture.name.as_deref());
+            let object = FileObject::item("texture", index, texture.name.as_deref());
             // Without an image the source is out of range.
             let place = root.images.get(texture.source.value());
             if place.is_none() {
-                warnings.push(format!("{object}: it has no image; materials go without it"));
+                warnings.push(object.warning("it has no image; materials go without it"));
             }
             let image = images.get(texture.source.value()).and_then(|image| image.as_ref().ok());
             textures.places.push(image.map(|_| textures.list.len()));
@@ -72,7 +68,7 @@ impl Textures {
     }
 
     /// How a material's slot reads its texture; `None` where it is empty or must do without.
-    pub fn slot(&self, object: &str, info: Option<&Info>, warnings: &mut Vec<String>) -> Option<TextureRef> {
+    pub fn slot(&self, object: &FileObject, info: Option<&Info>, warnings: &mut Vec<Warning>) -> Option<TextureRef> {
         let info = info?;
         self.place(object, info.index.value(), info.tex_coord, transform(info), warnings)
     }
@@ -80,22 +76,23 @@ impl Textures {
     /// [`Self::slot`] by its parts.
     pub fn place(
         &self,
-        object: &str,
+        object: &FileObject,
         texture: usize,
         tex_coord: u32,
         transform: Option<&TextureTransform>,
-        warnings: &mut Vec<String>,
+        warnings: &mut Vec<Warning>,
     ) -> Option<TextureRef> {
         let texture = self.places.get(texture).copied().flatten()?;
         let tex_coord = overridden(tex_coord, transform);
         if tex_coord > 1 {
-            warnings
-                .push(format!("{object}: a texture reads TEXCOORD_{tex_coord}, and 0 and 1 are read; it is left out"));
+            warnings.push(
+                object.warning(format!("a texture reads TEXCOORD_{tex_coord}, and 0 and 1 are read; it is left out")),
+            );
             return None;
         }
         let uv_from_tex_coord = transform.map_or(Affine2::IDENTITY, affine);
         if !uv_from_tex_coord.is_finite() {
-            warnings.push(format!("{object}: a texture's transform is not finite; the texture is left out"));
+            warnings.push(object.warning("a texture's transform is not finite; the texture is left out"));
             return None;
         }
         Some(TextureRef { texture, tex_coord: tex_coord as usize, uv_from_tex_coord })
@@ -122,14 +119,14 @@ fn affine(transform: &TextureTransform) -> Affine2 {
     Affine2::from_scale_angle_translation(scale, -transform.rotation.0, offset)
 }
 
-fn wraps(sampler: Option<&Sampler>, object: &str, warnings: &mut Vec<String>) -> [Wrap; 2] {
+fn wraps(sampler: Option<&Sampler>, object: &FileObject, warnings: &mut Vec<Warning>) -> [Wrap; 2] {
     let Some(sampler) = sampler else { return [Wrap::Repeat; 2] };
     [sampler.wrap_s, sampler.wrap_t].map(|mode| match mode {
         Checked::Valid(WrappingMode::Repeat) => Wrap::Repeat,
         Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::MirroredRepeat,
         Checked::Valid(WrappingMode::ClampToEdge) => Wrap::ClampToEdge,
         Checked::Invalid => {
-            warnings.push(format!("{object}: its sampler has a wrap mode that glTF does not know; it repeats"));
+            warnings.push(object.warning("its sampler has a wrap mode that glTF does not know; it repeats"));
             Wrap::Repeat
         }
     })

@@ -13,15 +13,16 @@ use gltf::json::{
 use super::{
     accessor::element_bytes,
     accessor_check::{declared_bytes, take},
-    error::label,
+    file_object::FileObject,
     json::Few,
     source::Source,
     texture::tex_coord_set,
 };
+use crate::scene::Warning;
 
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
-pub(super) fn check(source: &Source, warnings: &mut Vec<String>) {
+pub(super) fn check(source: &Source, warnings: &mut Vec<Warning>) {
     let mut check = Check {
         source,
         few: Few::default(),
@@ -32,7 +33,8 @@ pub(super) fn check(source: &Source, warnings: &mut Vec<String>) {
     check.views();
     for (index, mesh) in source.root.meshes.iter().enumerate() {
         for (number, primitive) in mesh.primitives.iter().enumerate() {
-            check.primitive(&format!("{}, primitive {number}", label("mesh", index, mesh.name.as_deref())), primitive);
+            let object = FileObject::item("mesh", index, mesh.name.as_deref());
+            check.primitive(&object.member(format_args!("primitive {number}")), primitive);
         }
     }
     check.samplers();
@@ -63,21 +65,21 @@ impl Check<'_> {
     fn views(&mut self) {
         for (index, view) in self.source.root.buffer_views.iter().enumerate() {
             if let Err(cause) = self.source.bytes_of_view(Index::new(index as u32)) {
-                self.few.add(|| format!("buffer view {index}: it {cause}"));
+                self.few.add(|| FileObject::item("buffer view", index, None).warning(format!("it {cause}")));
             }
             if let Some(stride) = view.byte_stride.filter(|stride| stride.0 as u64 > view.byte_length.0) {
-                self.few
-                    .add(|| format!("buffer view {index}, byteStride: it is {}, more than the view holds", stride.0));
+                let object = FileObject::item("buffer view", index, None).member("byteStride");
+                self.few.add(|| object.warning(format!("it is {}, more than the view holds", stride.0)));
             }
         }
     }
 
-    fn primitive(&mut self, object: &str, primitive: &Primitive) {
+    fn primitive(&mut self, object: &FileObject, primitive: &Primitive) {
         let compressed =
             primitive.extensions.as_ref().is_some_and(|e| e.others.contains_key("KHR_draco_mesh_compression"));
         for (semantic, &index) in &primitive.attributes {
             let Checked::Valid(semantic) = semantic else { continue };
-            let object = format!("{object}, {}", semantic.to_string());
+            let object = object.member(semantic.to_string());
             if !compressed {
                 self.vertex_data(&object, index);
             }
@@ -91,22 +93,22 @@ impl Check<'_> {
             ];
             for (semantic, index) in displaced {
                 let Some(index) = index else { continue };
-                let object = format!("{object}, morph target {number}, {}", semantic.to_string());
+                let object = object.member(format_args!("morph target {number}, {}", semantic.to_string()));
                 self.attribute(&object, &semantic, index);
                 if !primitive.attributes.contains_key(&Checked::Valid(semantic)) {
-                    self.few.add(|| format!("{object}: it displaces what the primitive has not"));
+                    self.few.add(|| object.warning("it displaces what the primitive has not"));
                 }
             }
         }
         if let Some(indices) = primitive.indices {
-            let object = format!("{object}, indices");
+            let object = object.member("indices");
             self.without_stride(&object, indices);
             self.restart(&object, indices);
         }
         self.tex_coords(object, primitive);
     }
 
-    fn attribute(&mut self, object: &str, semantic: &Semantic, index: Index<Accessor>) {
+    fn attribute(&mut self, object: &FileObject, semantic: &Semantic, index: Index<Accessor>) {
         let accessor = self.accessor(index);
         let lacks_bounds = accessor.min.is_none() || accessor.max.is_none();
         let is_float =
@@ -117,38 +119,39 @@ impl Check<'_> {
             _ => false,
         };
         if *semantic == Semantic::Positions && lacks_bounds {
-            self.few.add(|| format!("{object}: its accessor declares no min and max"));
+            self.few.add(|| object.warning("its accessor declares no min and max"));
         }
         let required = self.source.root.extensions_required.iter().any(|name| name == QUANTIZATION);
         if quantizable && !is_float && !required {
-            self.few.add(|| format!("{object}: it holds integers, and {QUANTIZATION} is not required"));
+            self.few.add(|| object.warning(format!("it holds integers, and {QUANTIZATION} is not required")));
         }
     }
 
     /// Vertex data is aligned to 4 bytes, and a view of several accessors has a stride.
-    fn vertex_data(&mut self, object: &str, index: Index<Accessor>) {
+    fn vertex_data(&mut self, object: &FileObject, index: Index<Accessor>) {
         let accessor = self.accessor(index);
         let Some(view) = accessor.buffer_view else { return };
         let (offset, stride) = (accessor.byte_offset.unwrap_or_default().0, self.stride(accessor));
         let Some(size) = element_bytes(accessor) else { return };
         if !offset.is_multiple_of(4) || !stride.unwrap_or(size).is_multiple_of(4) {
-            self.few.add(|| format!("{object}: its vertices do not start at multiples of 4 bytes"));
+            self.few.add(|| object.warning("its vertices do not start at multiples of 4 bytes"));
         }
         let first = *self.vertex_accessors.entry(view.value()).or_insert(index.value());
         if stride.is_none() && first != index.value() {
-            self.few
-                .add(|| format!("{object}: it shares buffer view {view} with accessor {first}, without a byteStride"));
+            self.few.add(|| {
+                object.warning(format!("it shares buffer view {view} with accessor {first}, without a byteStride"))
+            });
         }
     }
 
-    fn without_stride(&mut self, object: &str, index: Index<Accessor>) {
+    fn without_stride(&mut self, object: &FileObject, index: Index<Accessor>) {
         if self.stride(self.accessor(index)).is_some() {
-            self.few.add(|| format!("{object}: its buffer view has a byteStride, which is for vertices alone"));
+            self.few.add(|| object.warning("its buffer view has a byteStride, which is for vertices alone"));
         }
     }
 
     /// The largest index restarts a strip elsewhere; glTF has no such thing.
-    fn restart(&mut self, object: &str, index: Index<Accessor>) {
+    fn restart(&mut self, object: &FileObject, index: Index<Accessor>) {
         let Checked::Valid(component) = self.accessor(index).component_type else { return };
         let restart = match component.0 {
             ComponentType::U8 => u32::from(u8::MAX),
@@ -162,12 +165,14 @@ impl Check<'_> {
         let Ok(elements) = self.source.elements(index) else { return };
         let Ok(rows) = elements.unsigned::<1>(0..elements.count) else { return };
         if rows.contains(&[restart]) {
-            self.few.add(|| format!("{object}: {restart} restarts a primitive elsewhere, and glTF does not allow it"));
+            self.few.add(|| {
+                object.warning(format!("{restart} restarts a primitive elsewhere, and glTF does not allow it"))
+            });
         }
     }
 
     /// The coordinates that its material reads.
-    fn tex_coords(&mut self, object: &str, primitive: &Primitive) {
+    fn tex_coords(&mut self, object: &FileObject, primitive: &Primitive) {
         let Some(material) = primitive.material.and_then(|index| self.source.root.materials.get(index.value())) else {
             return;
         };
@@ -178,27 +183,28 @@ impl Check<'_> {
         let missing =
             sets.filter(|&set| !primitive.attributes.contains_key(&Checked::Valid(Semantic::TexCoords(set)))).max();
         if let Some(set) = missing {
-            self.few.add(|| format!("{object}: its material reads TEXCOORD_{set}, which it has not"));
+            self.few.add(|| object.warning(format!("its material reads TEXCOORD_{set}, which it has not")));
         }
     }
 
     fn samplers(&mut self) {
         for (index, animation) in self.source.root.animations.iter().enumerate() {
             for (number, sampler) in animation.samplers.iter().enumerate() {
-                let object = format!("{}, sampler {number}", label("animation", index, animation.name.as_deref()));
+                let object = FileObject::item("animation", index, animation.name.as_deref());
+                let object = object.member(format_args!("sampler {number}"));
                 let input = self.accessor(sampler.input);
                 let scalar = matches!(input.type_, Checked::Valid(Type::Scalar));
                 let float =
                     matches!(input.component_type, Checked::Valid(component) if component.0 == ComponentType::F32);
                 let bounded = input.min.is_some() && input.max.is_some();
                 if !(scalar && float) {
-                    self.few.add(|| format!("{object}: its input must be scalar floats"));
+                    self.few.add(|| object.warning("its input must be scalar floats"));
                 }
                 if !bounded {
-                    self.few.add(|| format!("{object}: its input declares no min and max"));
+                    self.few.add(|| object.warning("its input declares no min and max"));
                 }
-                self.without_stride(&format!("{object}, input"), sampler.input);
-                self.without_stride(&format!("{object}, output"), sampler.output);
+                self.without_stride(&object.member("input"), sampler.input);
+                self.without_stride(&object.member("output"), sampler.output);
             }
         }
     }

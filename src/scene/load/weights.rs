@@ -5,7 +5,9 @@ use gltf::json::mesh::Semantic;
 use super::{
     attributes::Attributes,
     error::{About, Defect, counted},
+    file_object::FileObject,
 };
+use crate::scene::Warning;
 
 /// Influences kept a vertex.
 const KEPT: usize = 4;
@@ -31,7 +33,7 @@ pub(super) struct Influences {
 
 impl Influences {
     /// `None` where the primitive has no skin attributes.
-    pub fn of(attributes: &Attributes, warnings: &mut Vec<String>) -> Result<Option<Self>, Defect> {
+    pub fn of(attributes: &Attributes, warnings: &mut Vec<Warning>) -> Result<Option<Self>, Defect> {
         let sets = attributes.joint_sets();
         if sets == 0 {
             return Ok(None);
@@ -90,30 +92,31 @@ fn strongest(mut all: Vec<(u32, f32)>, repairs: &mut Repairs) -> ([u32; KEPT], [
 }
 
 impl Repairs {
-    fn report(&self, primitive: &str, warnings: &mut Vec<String>) {
+    fn report(&self, primitive: &FileObject, warnings: &mut Vec<Warning>) {
         let vertices = |count| counted(count, "vertex", "vertices");
         if self.without_weight > 0 {
             let count = vertices(self.without_weight);
-            warnings.push(format!("{primitive}: {count} without joint weight, bound to the first joint named"));
+            warnings.push(primitive.warning(format!("{count} without joint weight, bound to the first joint named")));
         }
         if self.negative > 0 {
             let count = vertices(self.negative);
-            warnings.push(format!("{primitive}: {count} with negative joint weights, taken as 0"));
+            warnings.push(primitive.warning(format!("{count} with negative joint weights, taken as 0")));
         }
         if self.not_normalized > 0 {
             let count = vertices(self.not_normalized);
-            warnings.push(format!("{primitive}: {count} whose joint weights do not sum to 1; they are normalised"));
+            warnings
+                .push(primitive.warning(format!("{count} whose joint weights do not sum to 1; they are normalised")));
         }
         if self.repeated > 0 {
             let count = vertices(self.repeated);
-            warnings.push(format!("{primitive}: {count} with a joint named twice; its weights are added"));
+            warnings.push(primitive.warning(format!("{count} with a joint named twice; its weights are added")));
         }
         if self.dropped > 0 {
             let (count, percent) = (vertices(self.dropped), 100.0 * self.largest_dropped_share);
-            warnings.push(format!(
-                "{primitive}: {count} with more than {KEPT} joints, of which the strongest are kept; \
+            warnings.push(primitive.warning(format!(
+                "{count} with more than {KEPT} joints, of which the strongest are kept; \
                  up to {percent:.2} % of the weight of a vertex is dropped"
-            ));
+            )));
         }
     }
 }

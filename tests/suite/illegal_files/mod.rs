@@ -81,7 +81,7 @@ fn judge(case: &Case) -> Result<(), String> {
             let named = sentence.strip_prefix("illegal.gltf: ").is_some_and(|rest| rest.contains(part));
             if named { Ok(()) } else { Err(format!("not {part:?}: {sentence}")) }
         }
-        (Opened(part), Ok(scene)) => match scene.warnings.iter().any(|warning| warning.contains(part)) {
+        (Opened(part), Ok(scene)) => match scene.warnings.iter().any(|warning| warning.sentence.contains(part)) {
             true => Ok(()),
             false => Err(format!("no warning has {part:?}: {:?}", scene.warnings)),
         },

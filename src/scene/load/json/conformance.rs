@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::few::Few;
 use super::tree::{object_at, visit, visit_all};
+use crate::scene::Warning;
 
 /// Numbers and the values they may have.
 struct Range {
@@ -81,7 +82,7 @@ const EXCLUSIVE: [(&str, &str, &str); 5] = [
     ("images/*", "uri", "bufferView"),
 ];
 
-pub fn check(tree: &Value, warnings: &mut Vec<String>) {
+pub fn check(tree: &Value, warnings: &mut Vec<Warning>) {
     empties(tree, warnings);
     for Range { pattern, allowed, words } in &RANGES {
         let is_outside = |value: &Value| value.as_f64().is_some_and(|number| !allowed(number));
@@ -98,7 +99,7 @@ pub fn check(tree: &Value, warnings: &mut Vec<String>) {
     let mut unknown = Few::default();
     visit(tree, "meshes/*/primitives/*/attributes/*", &mut |path, _| {
         if path.last().is_some_and(|name| !is_attribute(name)) {
-            unknown.add(|| format!("{}: glTF knows no such attribute; it is ignored", object_at(tree, path)));
+            unknown.add(|| object_at(tree, path).warning("glTF knows no such attribute; it is ignored"));
         }
     });
     unknown.append_to(warnings);
@@ -120,19 +121,19 @@ fn warn(
     pattern: &str,
     is_defect: impl Fn(&Value) -> bool,
     words: impl Fn(&Value) -> String,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) {
     let mut few = Few::default();
     visit(tree, pattern, &mut |path, value| {
         if is_defect(value) {
-            few.add(|| format!("{}: {}", object_at(tree, path), words(value)));
+            few.add(|| object_at(tree, path).warning(words(value)));
         }
     });
     few.append_to(warnings);
 }
 
 /// No list of a document may be empty, and no primitive without attributes.
-fn empties(tree: &Value, warnings: &mut Vec<String>) {
+fn empties(tree: &Value, warnings: &mut Vec<Warning>) {
     let mut few = Few::default();
     visit_all(tree, &mut |path, value| {
         let is_empty = match value {
@@ -141,7 +142,7 @@ fn empties(tree: &Value, warnings: &mut Vec<String>) {
             _ => false,
         };
         if is_empty {
-            few.add(|| format!("{}: it is empty, which glTF does not allow", object_at(tree, path)));
+            few.add(|| object_at(tree, path).warning("it is empty, which glTF does not allow"));
         }
     });
     few.append_to(warnings);

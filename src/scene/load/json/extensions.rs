@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::few::Few;
 use super::tree;
+use crate::scene::Warning;
 use crate::scene::load::error::{Defect, counted};
 
 /// What is done with an extension.
@@ -97,14 +98,14 @@ pub fn check_required(tree: &Value) -> Result<(), Defect> {
 }
 
 /// Lists what is used without its effect, and warns of what is undeclared or out of place.
-pub fn check(tree: &Value, warnings: &mut Vec<String>) {
+pub fn check(tree: &Value, warnings: &mut Vec<Warning>) {
     let used = names(tree, "extensionsUsed");
     for required in names(tree, "extensionsRequired").iter().filter(|name| !used.contains(name)) {
-        warnings.push(format!("extensionsRequired: {required} is missing from extensionsUsed"));
+        warnings.push(Warning::new(format!("extensionsRequired: {required} is missing from extensionsUsed")));
     }
     let ignored: Vec<&str> = used.iter().copied().filter(|name| known(name).is_none()).collect();
     if !ignored.is_empty() {
-        warnings.push(format!("extensions that are not read: {}", ignored.join(", ")));
+        warnings.push(Warning::new(format!("extensions that are not read: {}", ignored.join(", "))));
     }
     let mut carried: BTreeMap<&str, usize> = BTreeMap::new();
     let mut misplaced = Few::default();
@@ -112,21 +113,20 @@ pub fn check(tree: &Value, warnings: &mut Vec<String>) {
         for name in value.get("extensions").and_then(Value::as_object).into_iter().flat_map(|all| all.keys()) {
             *carried.entry(name).or_default() += 1;
             if known(name).is_some_and(|known| !known.carriers.iter().any(|&carrier| is(carrier, path))) {
-                misplaced
-                    .add(|| format!("{}: {name} does not belong there and is ignored", tree::object_at(tree, path)));
+                misplaced.add(|| {
+                    tree::object_at(tree, path).warning(format!("{name} does not belong there and is ignored"))
+                });
             }
         }
     });
     misplaced.append_to(warnings);
     for (name, &count) in &carried {
         if !used.contains(name) {
-            warnings.push(format!(
-                "extensionsUsed: {name} is missing, and {} it",
-                counted(count, "object has", "objects have")
-            ));
+            let carriers = counted(count, "object has", "objects have");
+            warnings.push(Warning::new(format!("extensionsUsed: {name} is missing, and {carriers} it")));
         }
         if let Some(Known { support: Support::Noted(note), .. }) = known(name) {
-            warnings.push(format!("{name}: {}, {note}", counted(count, "object", "objects")));
+            warnings.push(Warning::new(format!("{name}: {}, {note}", counted(count, "object", "objects"))));
         }
     }
 }
@@ -155,7 +155,7 @@ mod tests {
 
     use super::*;
 
-    fn warnings_of(tree: &Value) -> Vec<String> {
+    fn warnings_of(tree: &Value) -> Vec<Warning> {
         let mut warnings = Vec::new();
         check(tree, &mut warnings);
         warnings
@@ -175,7 +175,7 @@ mod tests {
             "nodes": [{"extensions": {"KHR_materials_unlit": {}}, "extras": {"extensions": {"X": 1}}}],
             "materials": [{"extensions": {"KHR_materials_volume": {}, "KHR_materials_ior": {}}}],
         });
-        let warnings = warnings_of(&tree).join("\n");
+        let warnings = warnings_of(&tree).iter().map(Warning::to_string).collect::<Vec<_>>().join("\n");
         for part in [
             "node 0: KHR_materials_unlit does not belong",
             "extensionsUsed: KHR_materials_ior is missing",

@@ -1,6 +1,7 @@
 //! Warnings of one kind: the first few in full, the rest counted. A file with a million defects
 //! must not become a million sentences.
 
+use crate::scene::Warning;
 use crate::scene::load::error::counted;
 
 const KEPT: usize = 8;
@@ -8,23 +9,23 @@ const KEPT: usize = 8;
 /// Sentences of one kind.
 #[derive(Default)]
 pub(in crate::scene::load) struct Few {
-    kept: Vec<String>,
+    kept: Vec<Warning>,
     more: usize,
 }
 
 impl Few {
-    pub fn add(&mut self, sentence: impl FnOnce() -> String) {
+    pub fn add(&mut self, warning: impl FnOnce() -> Warning) {
         match self.kept.len() < KEPT {
-            true => self.kept.push(sentence()),
+            true => self.kept.push(warning()),
             false => self.more += 1,
         }
     }
 
-    pub fn append_to(self, warnings: &mut Vec<String>) {
+    pub fn append_to(self, warnings: &mut Vec<Warning>) {
         let last = self
             .kept
             .last()
-            .map(|sentence| format!("{} more like \"{sentence}\"", counted(self.more, "defect", "defects")));
+            .map(|last| Warning::new(format!("{} more like \"{last}\"", counted(self.more, "defect", "defects"))));
         warnings.extend(self.kept);
         warnings.extend(last.filter(|_| self.more > 0));
     }

@@ -18,12 +18,13 @@ pub(super) use few::Few;
 use gltf::json::Root;
 use serde_json::Value;
 
-use super::error::Defect;
+use super::{error::Defect, file_object::FileObject};
+use crate::scene::Warning;
 
 const NOT_AN_OBJECT: &str = "cannot be read: invalid type, expected an object";
 
 /// Parses, repairs and types the document; what was repaired or is not as glTF has it is warned of.
-pub(super) fn read(text: &[u8], warnings: &mut Vec<String>) -> Result<Root, Defect> {
+pub(super) fn read(text: &[u8], warnings: &mut Vec<Warning>) -> Result<Root, Defect> {
     let mut tree: Value =
         serde_json::from_slice(text).map_err(|error| Defect::new("document", format!("is not JSON: {error}")))?;
     if !tree.is_object() {
@@ -41,7 +42,8 @@ pub(super) fn read(text: &[u8], warnings: &mut Vec<String>) -> Result<Root, Defe
     give_scenes_nodes(&mut tree);
     serde_path_to_error::deserialize(&tree).map_err(|error| {
         let path = error.path().to_string();
-        let object = if path == "." { "document".to_owned() } else { tree::object_at(&tree, &tree::steps_of(&path)) };
+        let object =
+            if path == "." { FileObject::other("document") } else { tree::object_at(&tree, &tree::steps_of(&path)) };
         Defect::new(object, format!("cannot be read: {}", error.inner()))
     })
 }
@@ -81,7 +83,7 @@ pub(super) fn memory_bytes(text: &[u8]) -> u64 {
     text.iter().map(price).sum()
 }
 
-fn check_version(tree: &Value, warnings: &mut Vec<String>) -> Result<(), Defect> {
+fn check_version(tree: &Value, warnings: &mut Vec<Warning>) -> Result<(), Defect> {
     let asset = tree.get("asset").ok_or_else(|| Defect::new("document", "has no asset, and so no glTF version"))?;
     let of = |key: &str| asset.get(key).and_then(Value::as_str);
     let version = of("version").ok_or_else(|| Defect::new("asset", "has no version"))?;
@@ -90,7 +92,8 @@ fn check_version(tree: &Value, warnings: &mut Vec<String>) -> Result<(), Defect>
         match numbers {
             Some(("2", "0")) => {}
             Some(("2", _)) => {
-                warnings.push(format!("asset: it asks for glTF version \"{version}\", and is read as 2.0"));
+                let sentence = format!("asset: it asks for glTF version \"{version}\", and is read as 2.0");
+                warnings.push(Warning::new(sentence));
             }
             Some(_) => {
                 let cause = format!("needs glTF version \"{version}\", and only 2.0 can be read");

@@ -5,11 +5,12 @@ use serde_json::{Value, json};
 
 use super::few::Few;
 use super::tree::{self, Keep};
+use crate::scene::Warning;
 
 const EXTENSION: &str = "KHR_animation_pointer";
 const ANIMATED: [&str; 4] = ["translation", "rotation", "scale", "weights"];
 
-pub fn resolve(tree: &mut Value, warnings: &mut Vec<String>) {
+pub fn resolve(tree: &mut Value, warnings: &mut Vec<Warning>) {
     let mut lost = Vec::new();
     tree::retain(tree, "animations/*/channels/*/target", &mut |path, target| {
         let pointer = target.pointer(&format!("/extensions/{EXTENSION}/pointer")).and_then(Value::as_str);
@@ -33,7 +34,7 @@ pub fn resolve(tree: &mut Value, warnings: &mut Vec<String>) {
     });
     let mut few = Few::default();
     for (path, cause) in lost {
-        few.add(|| format!("{}: it {cause}; that is left out", tree::object_at(tree, &path)));
+        few.add(|| tree::object_at(tree, &path).warning(format!("it {cause}; that is left out")));
     }
     few.append_to(warnings);
 }
@@ -60,6 +61,10 @@ mod tests {
         assert_eq!(tree["animations"][0]["channels"][0]["target"], json!({"node": 2, "path": "rotation"}));
         assert_eq!(tree["animations"][0]["channels"][1], json!({}));
         assert_eq!(warnings.len(), 2);
-        assert!(warnings[0].starts_with("animation 0, channels[1].target: it animates \"/materials/0/alphaCutoff\""));
+        assert!(
+            warnings[0]
+                .sentence
+                .starts_with("animation 0, channels[1].target: it animates \"/materials/0/alphaCutoff\"")
+        );
     }
 }

@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::few::Few;
 use super::tree::{self, Keep};
+use crate::scene::Warning;
 use crate::scene::load::error::Defect;
 
 /// A reference: where it stands, inside of what it is (a key, or nothing), and the list it leads into.
@@ -75,7 +76,7 @@ const REFERENCES: [Reference; 37] = [
 ];
 
 /// Checks every reference. Channels without a node or sampler go with them.
-pub fn repair(tree: &mut Value, warnings: &mut Vec<String>) -> Result<(), Defect> {
+pub fn repair(tree: &mut Value, warnings: &mut Vec<Warning>) -> Result<(), Defect> {
     for reference in &REFERENCES {
         let length = length_of(tree, reference.list);
         let mut lost: Vec<(Vec<String>, u64)> = Vec::new();
@@ -95,7 +96,7 @@ pub fn repair(tree: &mut Value, warnings: &mut Vec<String>) -> Result<(), Defect
             let list = reference.list.rsplit('/').next().unwrap_or(reference.list);
             let cause = format!("leads to number {index} of {length} {list}");
             match reference.repair {
-                Some(repair) => few.add(|| format!("{object}: it {cause}; {repair}")),
+                Some(repair) => few.add(|| object.warning(format!("it {cause}; {repair}"))),
                 None => return Err(Defect::new(object, cause)),
             }
         }
@@ -110,7 +111,7 @@ fn length_of(tree: &Value, list: &str) -> u64 {
 }
 
 /// A channel whose target was taken out, or that names a sampler that is not there, moves nothing.
-fn drop_channels(tree: &mut Value, warnings: &mut Vec<String>) {
+fn drop_channels(tree: &mut Value, warnings: &mut Vec<Warning>) {
     let mut samplers = Vec::new();
     tree::visit(tree, "animations/*", &mut |_, animation| {
         samplers.push(animation.get("samplers").and_then(Value::as_array).map_or(0, |list| list.len() as u64));
@@ -141,7 +142,7 @@ fn drop_channels(tree: &mut Value, warnings: &mut Vec<String>) {
     });
     let mut few = Few::default();
     for (path, cause) in lost {
-        few.add(|| format!("{}: it {cause}; it is left out", tree::object_at(tree, &path)));
+        few.add(|| tree::object_at(tree, &path).warning(format!("it {cause}; it is left out")));
     }
     few.append_to(warnings);
 }

@@ -5,10 +5,11 @@ use serde_json::Value;
 
 use super::few::Few;
 use super::tree::{self, Keep};
+use crate::scene::Warning;
 
 const EXTENSIONS: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
-pub fn take_extension_sources(tree: &mut Value, warnings: &mut Vec<String>) {
+pub fn take_extension_sources(tree: &mut Value, warnings: &mut Vec<Warning>) {
     let images = tree.get("images").and_then(Value::as_array).map_or(0, |images| images.len() as u64);
     let mut lost = Vec::new();
     tree::retain(tree, "textures/*", &mut |path, texture| {
@@ -25,7 +26,8 @@ pub fn take_extension_sources(tree: &mut Value, warnings: &mut Vec<String>) {
     let mut few = Few::default();
     for (path, extension, source) in lost {
         let object = tree::object_at(tree, &path);
-        few.add(|| format!("{object}, {extension}: it leads to number {source} of {images} images; it is left out"));
+        let cause = format!("it leads to number {source} of {images} images; it is left out");
+        few.add(|| object.member(extension).warning(cause));
     }
     few.append_to(warnings);
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::scene::load::error::label;
+use crate::scene::load::file_object::{FileObject, kind_of, label};
 
 /// Whether a value stays in the tree.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -108,7 +108,7 @@ pub fn steps_of(path: &str) -> Vec<String> {
 }
 
 /// A path as messages name it: `node 3 "wheel", children[0]`.
-pub fn object_at(tree: &Value, path: &[String]) -> String {
+pub fn object_at(tree: &Value, path: &[String]) -> FileObject {
     let (head, rest) = match path {
         [extensions, extension, list, index, rest @ ..] if extensions == "extensions" => {
             (named(tree.pointer(&format!("/extensions/{extension}/{list}/{index}")), list, index), rest)
@@ -127,21 +127,20 @@ pub fn object_at(tree: &Value, path: &[String]) -> String {
     }
     match (head, tail.is_empty()) {
         (Some(head), true) => head,
-        (Some(head), false) => format!("{head}, {tail}"),
-        (None, true) => "document".to_owned(),
-        (None, false) => tail,
+        (Some(head), false) => head.member(tail),
+        (None, true) => FileObject::other("document"),
+        (None, false) => FileObject::other(tail),
     }
 }
 
 /// `None` where `index` is none: what is named then is a member, not an item of a list.
-fn named(item: Option<&Value>, list: &str, index: &str) -> Option<String> {
+fn named(item: Option<&Value>, list: &str, index: &str) -> Option<FileObject> {
     let index = index.parse().ok()?;
-    let kind = match list {
-        "meshes" => "mesh",
-        "bufferViews" => "buffer view",
-        other => other.strip_suffix('s').unwrap_or(other),
-    };
-    Some(label(kind, index, item.and_then(|item| item.get("name")?.as_str())))
+    let name = item.and_then(|item| item.get("name")?.as_str());
+    Some(match kind_of(list) {
+        Some(kind) => FileObject::item(kind, index, name),
+        None => FileObject::other(label(list.strip_suffix('s').unwrap_or(list), index, name)),
+    })
 }
 
 #[cfg(test)]
@@ -165,7 +164,7 @@ mod tests {
     #[test]
     fn paths_are_named_after_their_objects() {
         let tree = json!({"meshes": [{"name": "wheel"}], "extensions": {"KHR_lights_punctual": {"lights": [{}]}}});
-        let name = |path: &str| object_at(&tree, &steps_of(path));
+        let name = |path: &str| object_at(&tree, &steps_of(path)).to_string();
         assert_eq!(name("meshes[0].primitives[2].material"), "mesh 0 \"wheel\", primitives[2].material");
         assert_eq!(name("bufferViews[4]"), "buffer view 4");
         assert_eq!(name("asset.version"), "asset.version");
