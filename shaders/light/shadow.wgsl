@@ -2,6 +2,7 @@
 // vertices by number, a matrix an object or joint (grid_from_mesh). Out: one layer. Entry points `rigid`
 // and `skinned` as for pictures; MASK casts by its cutoff, BLEND by a share of the texels.
 #import shared/posed_vertex.wgsl
+#import shared/base_color.wgsl
 #import shared/shadow_frame.wgsl
 
 @group(0) @binding(0) var<uniform> frame: ShadowFrame;
@@ -28,8 +29,8 @@ fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
 
 @fragment
 fn fragment(v: Vertex) -> @location(0) vec4<f32> {
-    let alpha = draw.base_color.a * v.alpha * textureSample(base_color, base_color_sampler, v.tex_coord).a;
-    if !is_there(alpha, vec2<u32>(v.clip.xy)) {
+    let surface = base_color_at(vec4<f32>(1.0, 1.0, 1.0, v.alpha), v.tex_coord);
+    if !is_there(surface.presence, vec2<u32>(v.clip.xy)) {
         discard;
     }
     return vec4<f32>(v.distance, 0.0, 0.0, 1.0);

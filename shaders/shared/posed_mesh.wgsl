@@ -106,18 +106,3 @@ fn skinned_matrix(vertex: u32) -> MeshMatrix {
     return MeshMatrix(array(sum[0] / total, sum[1] / total, sum[2] / total));
 }
 
-// 0 … 1 in an order that spreads: a share of pixels stands for a share of coverage.
-fn threshold(pixel: vec2<u32>) -> f32 {
-    let x = pixel.x ^ pixel.y;
-    let order = ((x & 1u) << 3u) | ((pixel.y & 1u) << 2u) | ((x & 2u)) | ((pixel.y & 2u) >> 1u);
-    return (f32(order) + 0.5) / 16.0;
-}
-
-// Transparency without an order: MASK by its cutoff, BLEND by a share of the pixels.
-fn is_there(alpha: f32, pixel: vec2<u32>) -> bool {
-    switch draw.alpha_mode {
-        case ALPHA_MASK: { return alpha >= draw.cutoff; }
-        case ALPHA_BLEND: { return alpha > threshold(pixel); }
-        default: { return true; }
-    }
-}

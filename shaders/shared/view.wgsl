@@ -1,5 +1,6 @@
 // What the views share: the ray of a pixel, light and colour, lines at voxel borders.
 #import constants
+#import shared/gamma.wgsl
 #import shared/ray_walk.wgsl
 #import shared/transmittance.wgsl
 
@@ -88,15 +89,6 @@ fn edged(color: vec3<f32>, p: vec3<f32>, walk: Walk, pixel_width: f32) -> vec3<f
     let fade = clamp((1.0 / pixel_width - EDGE_FROM_PX) / (EDGE_FULL_PX - EDGE_FROM_PX), 0.0, 1.0);
     let line = clamp(1.5 - distance_px, 0.0, 1.0) * fade;
     return color * (1.0 - (1.0 - EDGE_SHADE) * line);
-}
-
-fn gamma_from_linear(color: vec3<f32>) -> vec3<f32> {
-    let c = clamp(color, vec3<f32>(0.0), vec3<f32>(1.0));
-    return select(1.055 * pow(c, vec3<f32>(1.0 / 2.4)) - 0.055, 12.92 * c, c <= vec3<f32>(0.0031308));
-}
-
-fn linear_from_gamma(color: vec3<f32>) -> vec3<f32> {
-    return select(pow((color + 0.055) / 1.055, vec3<f32>(2.4)), color / 12.92, color <= vec3<f32>(0.04045));
 }
 
 // Light on its way to the eye, front to back.

@@ -3,7 +3,7 @@
 // textures. Out: a texel a pixel. Entry points `rigid` and `skinned` differ in how a vertex moves.
 #import shared/packing.wgsl
 #import shared/octahedral.wgsl
-#import shared/posed_mesh.wgsl
+#import shared/base_color.wgsl
 
 struct SurfaceParams {
     // From camera space in cells: x right, y up, z backward. Depth is reversed.
@@ -142,8 +142,8 @@ fn shading_normal(v: Vertex, face: vec3<f32>, to_eye: vec3<f32>) -> vec3<f32> {
 
 @fragment
 fn fragment(v: Vertex) -> Texel {
-    let base = draw.base_color * v.color * textureSample(base_color, base_color_sampler, slot_uv(draw.base_color_slot, v.tex_coords));
-    if !is_there(base.a, vec2<u32>(v.clip.xy)) {
+    let base = base_color_at(v.color, slot_uv(draw.base_color_slot, v.tex_coords));
+    if !is_there(base.presence, vec2<u32>(v.clip.xy)) {
         discard;
     }
     let to_eye = -normalize(v.position);
@@ -151,14 +151,14 @@ fn fragment(v: Vertex) -> Texel {
     let normal = shading_normal(v, face, to_eye);
     let share = textureSample(metallic_roughness, metallic_roughness_sampler, slot_uv(draw.metallic_roughness_slot, v.tex_coords)).gb;
     let glow = textureSample(emissive, emissive_sampler, slot_uv(draw.emissive_slot, v.tex_coords)).rgb;
-    var albedo = base.rgb;
+    var albedo = base.color.rgb;
     var rough_metallic = vec2<f32>(draw.roughness, draw.metallic) * share;
     var emission = surface.emission * draw.emissive * glow;
     if draw.unlit != 0u {
         // Black metal: nothing is reflected (shared/brdf.wgsl).
         albedo = vec3<f32>(0.0);
         rough_metallic = vec2<f32>(1.0);
-        emission = base.rgb;
+        emission = base.color.rgb;
     }
     let distance = bitcast<u32>(length(v.position));
     let packed_normal = pack_octahedral(surface.world_from_camera * normal);

@@ -3,6 +3,7 @@
 // vertex moves; the second exists only where a scene has skins.
 #import shared/view.wgsl
 #import shared/posed_vertex.wgsl
+#import shared/base_color.wgsl
 
 struct MeshParams {
     // From camera space in cells: x right, y up, z backward. Depth is reversed.
@@ -45,12 +46,12 @@ fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
 
 @fragment
 fn fragment(v: Vertex) -> Pixel {
-    let surface = draw.base_color * v.color * textureSample(base_color, base_color_sampler, v.tex_coord);
-    if !is_there(surface.a, vec2<u32>(v.clip.xy)) {
+    let surface = base_color_at(v.color, v.tex_coord);
+    if !is_there(surface.presence, vec2<u32>(v.clip.xy)) {
         discard;
     }
     let direction = normalize(v.position);
-    var color = surface.rgb;
+    var color = surface.color.rgb;
     if view.color_by == COLOR_OBJECT {
         color = palette.colors[draw.object & 255u].rgb;
     }

@@ -5,9 +5,10 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::data::texels::Texels;
 use crate::prepare::Prepared;
 use crate::scene::{AlphaMode, Material, Primitive};
-use crate::stages::voxelize::{Texels, TexturePyramids};
+use crate::stages::voxelize::TexturePyramids;
 
 /// A blended surface that is less there than this is a hole to rays.
 const BLEND_CUTOFF: f64 = 0.5;

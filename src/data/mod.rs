@@ -10,5 +10,6 @@ pub mod packing;
 pub mod pages;
 pub mod slot;
 pub mod surface_image;
+pub mod texels;
 pub mod voxel_cache;
 pub mod world_voxels;

@@ -11,6 +11,7 @@ use super::{Engine, EngineError};
 use crate::data::mesh::MeshScene;
 use crate::gpu::{GpuError, Job, JobState, Recorder};
 use crate::plan::{FramePlan, Key, Keys, Part};
+use crate::stages::textures::halve::record_levels;
 
 impl Engine {
     /// One slice of the frame on its way; `None` when all of it is done. Where memory is short, the frame begins again
@@ -69,7 +70,7 @@ impl Engine {
         let Some(textures) = frame.textures() else { return Ok(true) };
         let prepared = &frame.request.prepared;
         let objects = || prepared.objects.iter().zip(0..).map(|(object, number)| (number, object.object.clone()));
-        let new = || MeshScene::new(Arc::clone(&prepared.scene), objects().collect());
+        let new = || MeshScene::new(Arc::clone(&prepared.scene), objects().collect(), record_levels);
         let mesh = self.parts.mesh.get_or_insert_with(new);
         Ok(mesh.upload(&self.gpu, (&frame.request.shot.hidden, textures), budget)?)
     }

@@ -6,6 +6,7 @@
 //! profiler frame a slice), else from the clock, shared out by the estimate. What is wanted back is copied
 //! at the end of the last slice.
 
+use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -57,6 +58,13 @@ struct Slice {
     pieces: Vec<Piece>,
     /// Nanoseconds from `submitted` to the end; 0 while it runs.
     took_ns: Arc<AtomicU64>,
+}
+
+impl fmt::Debug for Job {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (command, commands) = (self.command, self.recorder.commands.len());
+        formatter.debug_struct("Job").field("command", &command).field("commands", &commands).finish_non_exhaustive()
+    }
 }
 
 impl Job {

@@ -12,6 +12,7 @@ pub mod pixels;
 pub mod sample;
 mod shaders;
 pub mod surface;
+pub mod textures;
 pub mod transform;
 pub mod view;
 pub mod voxelize;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
-use super::{build, cones, fill, light, pixels, sample, surface, transform, view};
+use super::{build, cones, fill, light, pixels, sample, surface, textures, transform, view};
 use crate::color::LUMINANCE;
 use crate::data;
 use crate::gpu::{self, Constant, Mirror, Shaders, constants};
@@ -35,6 +35,7 @@ const CONSTANTS: &[&[Constant]] = &[
     surface::CONSTANTS,
     surface::compose::CONSTANTS,
     surface::sum_luminance::CONSTANTS,
+    textures::halve::CONSTANTS,
     cones::CONSTANTS,
     cones::specular::CONSTANTS,
     pixels::CONSTANTS,
@@ -60,6 +61,7 @@ pub const MIRRORS: &[&[Mirror]] = &[
     surface::compose::MIRRORS,
     surface::mean_luminance::MIRRORS,
     surface::sum_luminance::MIRRORS,
+    textures::halve::MIRRORS,
     cones::blur::MIRRORS,
     cones::diffuse::MIRRORS,
     cones::glossy_tiles::MIRRORS,

@@ -110,6 +110,7 @@ mod surface_image;
 mod surface_rig;
 mod surface_scenes;
 mod surface_shadows;
+mod textures;
 mod tiles;
 mod transform;
 mod transform_scenes;

@@ -14,6 +14,7 @@ use octolume::settings::{Hidden, Look};
 use octolume::stages::pixels::camera::PixelRays;
 use octolume::stages::pixels::projection;
 use octolume::stages::pixels::{BACKGROUND, Picture, picture};
+use octolume::stages::textures::halve::record_levels;
 use octolume::stages::view::mesh::{self, MeshTarget, MeshView};
 
 pub const SIZE_PX: [u32; 2] = [64, 48];
@@ -71,7 +72,7 @@ pub fn look() -> Look {
 /// The rest pose of a scene, uploaded and recorded.
 pub fn recorded(gpu: &Gpu, scene: &Scene, look: &Look) -> (Recorder, Picture) {
     let objects = (0..).zip(scene.objects()).collect();
-    let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects);
+    let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects, record_levels);
     while !mesh.upload(gpu, (&Hidden::default(), Textures::BaseColor), Duration::ZERO).expect("fits") {}
     let picture = Picture::new(gpu, SIZE_PX).expect("fits");
     let depth = picture::depth_buffer(gpu, SIZE_PX).expect("fits");

@@ -16,6 +16,7 @@ use crate::random;
 use crate::stage_build::Shape;
 use crate::stage_checks::{Check, Expected};
 use crate::stage_rig::{World, world_voxel};
+use crate::textures::check_halving;
 use crate::transform::check_quarter_turns;
 use crate::{illuminate, light_store, sampling};
 
@@ -159,4 +160,19 @@ fn defects_of_injection_and_averaging_are_caught() {
         ("return vec3<f32>(x, y, z) / 4.0;", "return vec3<f32>(x, y, z);"),
     ];
     assert_caught("light/average_light.wgsl", light_store::check_store, &averaged);
+}
+
+#[test]
+fn defects_of_mip_levels_are_caught() {
+    assert_caught(
+        "textures/halve.wgsl",
+        check_halving,
+        &[
+            ("linear_from_gamma(texel.rgb)", "texel.rgb"),
+            ("select(texel.rgb, gamma_from_linear(texel.rgb), params.are_colors != 0u)", "texel.rgb"),
+            ("there += present * color", "there += part * color"),
+            (">= params.least_alpha", "> params.least_alpha"),
+            ("(at + 1u) * finer_size + size - 1u", "(at + 1u) * finer_size"),
+        ],
+    );
 }

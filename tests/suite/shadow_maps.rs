@@ -18,6 +18,7 @@ use octolume::stages::light::illuminate::{self, LightParams};
 use octolume::stages::light::illuminate_ref::{self, Source};
 use octolume::stages::light::shadow::{ShadowMap, ShadowParams};
 use octolume::stages::pixels::NO_DEPTH;
+use octolume::stages::textures::halve::record_levels;
 
 use crate::device::gpu;
 use crate::light_rig::{LightRig, full, grid, light, point, sun};
@@ -51,7 +52,7 @@ fn bounds() -> Option<Aabb> {
 
 fn mapped(gpu: &Gpu, scene: &Scene, lit: &PosedLight) -> ShadowMap {
     let objects = (0..).zip(scene.objects()).collect();
-    let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects);
+    let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects, record_levels);
     while !mesh.upload(gpu, (&Hidden::default(), Textures::BaseColor), Duration::ZERO).expect("fits") {}
     let of_pose = (&scene.pose(None, 0.0), &Hidden::default());
     let to_grid = grid(5).grid_from_world();

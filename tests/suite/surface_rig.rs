@@ -20,6 +20,7 @@ use octolume::stages::pixels::projection;
 use octolume::stages::pixels::{NO_DEPTH, ViewParams, picture};
 use octolume::stages::surface::draw::{self, Viewpoint};
 use octolume::stages::surface::{Lit, direct, direct_march, emission};
+use octolume::stages::textures::halve::record_levels;
 
 use crate::device::gpu;
 use crate::stage_rig::{buffer, read, run};
@@ -51,7 +52,7 @@ pub enum Hiding<'a> {
 
 fn uploaded(gpu: &Gpu, scene: &Scene) -> MeshScene {
     let objects = (0..).zip(scene.objects()).collect();
-    let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects);
+    let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects, record_levels);
     while !mesh.upload(gpu, (&Hidden::default(), Textures::All), Duration::ZERO).expect("fits") {}
     mesh
 }

@@ -9,8 +9,9 @@ use super::Reflection;
 use super::brdf::Brdf;
 use crate::accuracy::posed_triangles::SurfacePoint;
 use crate::accuracy::triangle::{PosedTriangle, weighted};
+use crate::data::texels::Texels;
 use crate::scene::{AlphaMode, Material, Primitive, TextureRef};
-use crate::stages::voxelize::{Texels, TexturePyramids};
+use crate::stages::voxelize::TexturePyramids;
 
 /// Least cosine of shading normal and view direction.
 const LEAST_FACING: f64 = 0.01;

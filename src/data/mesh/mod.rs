@@ -13,6 +13,7 @@ use crate::gpu::{Constant, Mirror, constants, mirror};
 
 pub use posed::PosedMesh;
 pub use scene::{MeshScene, Textures};
+pub use texture::RecordLevels;
 
 pub const ALPHA_OPAQUE: u32 = 0;
 pub const ALPHA_MASK: u32 = 1;

@@ -1,8 +1,9 @@
 //! What a draw says about its material, in the order of the uniform.
 
 use super::scene::{MeshScene, Place};
-use super::texture::{Encoding, MeshTexture};
+use super::texture::MeshTexture;
 use super::{ALPHA_BLEND, ALPHA_MASK, ALPHA_OPAQUE, DrawParams, TextureSlot};
+use crate::data::texels::Texels;
 use crate::scene::{AlphaMode, Material, Primitive, TextureRef};
 
 pub(super) fn draw_params(
@@ -16,7 +17,7 @@ pub(super) fn draw_params(
         AlphaMode::Mask { cutoff } => (ALPHA_MASK, cutoff),
         AlphaMode::Blend => (ALPHA_BLEND, 0.0),
     };
-    let slot = |slot, encoding| texture_slot(slot, mesh.texture(slot, encoding));
+    let slot = |slot, texels| texture_slot(slot, mesh.texture(slot, texels));
     DrawParams {
         base_color: material.base_color,
         first_index: place.first_index,
@@ -32,10 +33,10 @@ pub(super) fn draw_params(
         roughness: material.roughness,
         metallic: material.metallic,
         pad: [0; 2],
-        base_color_slot: slot(material.base_color_texture, Encoding::Srgb),
-        metallic_roughness_slot: slot(material.metallic_roughness_texture, Encoding::Linear),
-        normal_slot: slot(material.normal_texture, Encoding::Linear),
-        emissive_slot: slot(material.emissive_texture, Encoding::Srgb),
+        base_color_slot: slot(material.base_color_texture, Texels::of_base_color(material)),
+        metallic_roughness_slot: slot(material.metallic_roughness_texture, Texels::Linear),
+        normal_slot: slot(material.normal_texture, Texels::Linear),
+        emissive_slot: slot(material.emissive_texture, Texels::Opaque),
     }
 }
 

@@ -9,9 +9,10 @@ use glam::DMat4;
 use super::DrawParams;
 use super::params::draw_params;
 use super::scene::{Batch, MeshScene, Place, material};
-use super::texture::{Encoding, MeshTexture};
+use super::texture::MeshTexture;
 use crate::data::matrix::Matrix3x4;
 use crate::data::octree::Slot;
+use crate::data::texels::Texels;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, PassBuilder, RasterKernel};
 use crate::scene::{Material, Motion, Object, Pose, Primitive};
 use crate::settings::Hidden;
@@ -83,17 +84,17 @@ impl<'a> PosedMesh<'a> {
         let first_matrix = if joints.is_some() { first.joints } else { first.node };
         // Without an image white stands in: all it says is multiplied, and the normal map asks first.
         let white = mesh.white.as_ref()?;
-        let texture = |slot, encoding| mesh.texture(slot, encoding).unwrap_or(white);
+        let texture = |slot, texels| mesh.texture(slot, texels).unwrap_or(white);
         Some(PosedDraw {
             params: draw_params(mesh, (primitive, place), material, (number, first_matrix)),
             batch,
             joints,
             matrices: &self.matrices,
             place,
-            base_color: texture(material.base_color_texture, Encoding::Srgb),
-            metallic_roughness: texture(material.metallic_roughness_texture, Encoding::Linear),
-            normal: texture(material.normal_texture, Encoding::Linear),
-            emissive: texture(material.emissive_texture, Encoding::Srgb),
+            base_color: texture(material.base_color_texture, Texels::of_base_color(material)),
+            metallic_roughness: texture(material.metallic_roughness_texture, Texels::Linear),
+            normal: texture(material.normal_texture, Texels::Linear),
+            emissive: texture(material.emissive_texture, Texels::Opaque),
         })
     }
 }
@@ -118,18 +119,18 @@ impl PosedDraw<'_> {
             .bind("indices", &self.batch.indices)
             .bind("vertices", &self.batch.vertices)
             .bind("matrices", self.matrices)
-            .texture("base_color", self.base_color.texture.view())
+            .texture("base_color", &self.base_color.view)
             .sampler("base_color_sampler", &self.base_color.sampler)
     }
 
     /// The same and the other textures of the material.
     pub fn bind_all<'r>(&self, pass: PassBuilder<'r, RasterKernel>) -> PassBuilder<'r, RasterKernel> {
         self.bind(pass)
-            .texture("metallic_roughness", self.metallic_roughness.texture.view())
+            .texture("metallic_roughness", &self.metallic_roughness.view)
             .sampler("metallic_roughness_sampler", &self.metallic_roughness.sampler)
-            .texture("normal_map", self.normal.texture.view())
+            .texture("normal_map", &self.normal.view)
             .sampler("normal_sampler", &self.normal.sampler)
-            .texture("emissive", self.emissive.texture.view())
+            .texture("emissive", &self.emissive.view)
             .sampler("emissive_sampler", &self.emissive.sampler)
     }
 }

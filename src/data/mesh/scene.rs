@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::texture::{Encoding, MeshTexture, TextureUploader};
+use super::texture::{self, MeshTexture, RecordLevels};
 use super::vertex::{mesh_vertex, vertex_joints};
-use crate::gpu::{Gpu, GpuBuffer, GpuError};
+use crate::data::texels::Texels;
+use crate::gpu::{Gpu, GpuBuffer, GpuError, Job, JobState, Recorder};
 use crate::scene::{Material, Motion, Object, Primitive, Scene, TextureRef};
 use crate::settings::Hidden;
 
@@ -50,20 +51,23 @@ pub struct MeshScene {
     pub(super) batches: Vec<Batch>,
     /// By mesh and primitive; `None` where nothing is drawn.
     pub(super) places: Vec<Vec<Option<Place>>>,
-    /// By index into the scene's textures; those that are read both ways are there twice.
-    textures: BTreeMap<(usize, Encoding), MeshTexture>,
+    /// By index into the scene's textures; those that are read in two ways are there twice.
+    textures: BTreeMap<(usize, Texels), MeshTexture>,
     pub(super) white: Option<MeshTexture>,
     /// What `waiting` was listed for; `None` before the first upload.
     wanted: Option<(Hidden, Textures)>,
     waiting: Vec<Waiting>,
-    uploader: Option<TextureUploader>,
+    record_levels: RecordLevels,
+    /// Makes the smaller levels of textures, those recorded since, and those on their way.
+    levels: Recorder,
+    levels_job: Option<Job>,
 }
 
 /// What is still to be uploaded, last first.
 #[derive(Debug)]
 enum Waiting {
     White,
-    Texture(usize, Encoding),
+    Texture(usize, Texels),
     /// Mesh and primitive of each; all skinned or none.
     Batch {
         primitives: Vec<(usize, usize)>,
@@ -73,7 +77,7 @@ enum Waiting {
 
 impl MeshScene {
     /// Nothing is uploaded yet.
-    pub fn new(scene: Arc<Scene>, objects: Vec<(u32, Object)>) -> Self {
+    pub fn new(scene: Arc<Scene>, objects: Vec<(u32, Object)>, record_levels: RecordLevels) -> Self {
         Self {
             places: scene.meshes.iter().map(|mesh| vec![None; mesh.primitives.len()]).collect(),
             textures: BTreeMap::new(),
@@ -83,7 +87,9 @@ impl MeshScene {
             white: None,
             wanted: None,
             waiting: Vec::new(),
-            uploader: None,
+            record_levels,
+            levels: Recorder::default(),
+            levels_job: None,
         }
     }
 
@@ -110,7 +116,28 @@ impl MeshScene {
                 break;
             }
         }
-        Ok(self.waiting.is_empty())
+        Ok(self.waiting.is_empty() && self.make_levels(gpu, budget)?)
+    }
+
+    /// Advances what makes the smaller levels; true when all are there. Without them no texture is.
+    fn make_levels(&mut self, gpu: &Gpu, budget: Duration) -> Result<bool, GpuError> {
+        if self.levels_job.is_none() && !self.levels.is_empty() {
+            self.levels_job = Some(Job::new(std::mem::take(&mut self.levels)));
+        }
+        let Some(job) = &mut self.levels_job else { return Ok(true) };
+        match job.advance(gpu, budget) {
+            Ok(JobState::Running { .. }) => Ok(false),
+            Ok(JobState::Done) => {
+                self.levels_job = None;
+                Ok(self.levels.is_empty())
+            }
+            Err(error) => {
+                self.levels_job = None;
+                self.textures.clear();
+                self.wanted = None;
+                Err(error)
+            }
+        }
     }
 
     /// What is shown and not uploaded. A mesh that skinned and rigid objects share counts as skinned.
@@ -127,7 +154,7 @@ impl MeshScene {
         }
         let textures = read_textures(&self.scene, meshes.iter(), textures);
         let missing = textures.into_iter().filter(|texture| !self.textures.contains_key(texture));
-        waiting.extend(missing.map(|(index, encoding)| Waiting::Texture(index, encoding)));
+        waiting.extend(missing.map(|(index, texels)| Waiting::Texture(index, texels)));
         let is_missing = |&(mesh, primitive): &(usize, usize)| self.places[mesh][primitive].is_none();
         waiting.extend(batches(&self.scene, skinned, true, is_missing));
         waiting.extend(batches(&self.scene, rigid, false, is_missing));
@@ -135,17 +162,17 @@ impl MeshScene {
     }
 
     /// `None` where the slot is empty, its image has no texels, or it is not uploaded.
-    pub(super) fn texture(&self, slot: Option<TextureRef>, encoding: Encoding) -> Option<&MeshTexture> {
-        self.textures.get(&(slot?.texture, encoding))
+    pub(super) fn texture(&self, slot: Option<TextureRef>, texels: Texels) -> Option<&MeshTexture> {
+        self.textures.get(&(slot?.texture, texels))
     }
 
     fn upload_one(&mut self, gpu: &Gpu, next: &Waiting) -> Result<(), GpuError> {
-        let uploader = self.uploader.get_or_insert_with(|| TextureUploader::new(gpu));
         match *next {
-            Waiting::White => self.white = Some(uploader.white(gpu)?),
-            Waiting::Texture(index, encoding) => {
-                let texture = uploader.upload(gpu, &self.scene.textures[index], encoding)?;
-                self.textures.insert((index, encoding), texture);
+            Waiting::White => self.white = Some(texture::white(gpu)?),
+            Waiting::Texture(index, texels) => {
+                let uploaded = texture::upload(gpu, &self.scene.textures[index], texels)?;
+                (self.record_levels)(gpu, &mut self.levels, &uploaded.texture, texels);
+                self.textures.insert((index, texels), uploaded);
             }
             Waiting::Batch { ref primitives, skinned } => self.upload_batch(gpu, primitives, skinned)?,
         }
@@ -191,17 +218,17 @@ fn read_textures<'a>(
     scene: &Scene,
     meshes: impl Iterator<Item = &'a usize>,
     textures: Textures,
-) -> BTreeSet<(usize, Encoding)> {
+) -> BTreeSet<(usize, Texels)> {
     let primitives = meshes.flat_map(|&mesh| &scene.meshes[mesh].primitives);
     let slots = primitives.filter_map(|primitive| material(scene, primitive)).flat_map(|material| {
         let all = [
-            (material.base_color_texture, Encoding::Srgb),
-            (material.emissive_texture, Encoding::Srgb),
-            (material.metallic_roughness_texture, Encoding::Linear),
-            (material.normal_texture, Encoding::Linear),
+            (material.base_color_texture, Texels::of_base_color(material)),
+            (material.emissive_texture, Texels::Opaque),
+            (material.metallic_roughness_texture, Texels::Linear),
+            (material.normal_texture, Texels::Linear),
         ];
         let count = if textures == Textures::All { all.len() } else { 1 };
-        all.into_iter().take(count).filter_map(|(slot, encoding)| Some((slot?.texture, encoding)))
+        all.into_iter().take(count).filter_map(|(slot, texels)| Some((slot?.texture, texels)))
     });
     let has_texels =
         |index: usize| scene.textures.get(index).is_some_and(|t| t.image.width() > 0 && t.image.height() > 0);

@@ -23,7 +23,7 @@ use glam::{DVec3, IVec3};
 use rayon::prelude::*;
 
 pub use coverage::CellBox;
-pub use pyramid::{Texels, TexturePyramids};
+pub use pyramid::TexturePyramids;
 
 use crate::data::voxel_cache::{MAX_COORDINATE_CELLS, VoxelCache, VoxelizeReport};
 use crate::progress::{Cancelled, Progress};
@@ -34,7 +34,7 @@ use payload::MAX_FRAGMENTS;
 
 /// Goes up with every change that gives any input another [`VoxelCache`]: caches kept on disk by
 /// other versions are not read.
-pub const ALGORITHM_VERSION: u32 = 1;
+pub const ALGORITHM_VERSION: u32 = 2;
 
 /// Geometry in lattice cells: the caller has applied stretch, span and phase.
 pub struct VoxelizeInput<'a> {

@@ -8,18 +8,9 @@ use std::sync::OnceLock;
 use glam::DVec2;
 
 use crate::color::linear_from_gamma;
+use crate::data::texels::Texels;
 use crate::scene::{Texture, TextureRef, Wrap};
-
-/// How a slot reads an image's bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Texels {
-    /// Numbers, such as metallic and roughness.
-    Linear,
-    /// sRGB colour; alpha says nothing.
-    Opaque,
-    /// sRGB colour weighted by alpha, so that what is invisible colours nothing.
-    Covering,
-}
+use crate::stages::textures::halve_ref::box_filtered;
 
 /// The pyramids of all textures of a scene.
 #[derive(Debug)]
@@ -30,11 +21,13 @@ pub struct TexturePyramids {
 #[derive(Debug)]
 struct Pyramids {
     texture: Texture,
-    /// One for each of [`Texels`].
+    /// One for each of [`Texels`] that does not cut.
     levels: [OnceLock<Vec<Level>>; 3],
+    /// By the least alpha byte.
+    cuts: OnceLock<Box<[OnceLock<Vec<Level>>]>>,
 }
 
-/// Linear RGBA, 16 bits each, rows from the top; for [`Texels::Covering`] premultiplied.
+/// Linear RGBA, 16 bits each, rows from the top; where alpha counts, colours are multiplied by it.
 #[derive(Debug)]
 struct Level {
     size: [usize; 2],
@@ -44,7 +37,11 @@ struct Level {
 impl TexturePyramids {
     /// Images are shared with `textures`, not copied.
     pub fn new(textures: &[Texture]) -> Self {
-        let pyramids = |texture: &Texture| Pyramids { texture: texture.clone(), levels: Default::default() };
+        let pyramids = |texture: &Texture| Pyramids {
+            texture: texture.clone(),
+            levels: Default::default(),
+            cuts: OnceLock::new(),
+        };
         Self { textures: textures.iter().map(pyramids).collect() }
     }
 
@@ -52,6 +49,22 @@ impl TexturePyramids {
     /// premultiplied. Opaque white where there is no such texture.
     pub fn sample(&self, texture: usize, texels: Texels, uv: DVec2, uv_area: f64) -> [f64; 4] {
         self.textures.get(texture).map_or([1.0; 4], |pyramids| pyramids.sample(texels, uv, uv_area))
+    }
+
+    /// The same of a mask's base colour, whose alpha says which share of the area is there. `is_there` decides by the
+    /// alpha between texels of the file's image, for areas that are smaller than those; `least` is the smallest byte
+    /// of which it is true.
+    pub fn sample_cut(
+        &self,
+        texture: usize,
+        least: u16,
+        (uv, uv_area): (DVec2, f64),
+        is_there: impl Fn(f64) -> bool,
+    ) -> [f64; 4] {
+        match self.textures.get(texture) {
+            Some(pyramids) => pyramids.sample_cut(least, uv, uv_area, is_there),
+            None => [1.0, 1.0, 1.0, f64::from(u8::from(is_there(1.0)))],
+        }
     }
 
     /// True where a slot is empty or its texture exists and has texels.
@@ -62,24 +75,50 @@ impl TexturePyramids {
 }
 
 impl Pyramids {
-    fn sample(&self, texels: Texels, uv: DVec2, uv_area: f64) -> [f64; 4] {
-        let levels = self.levels[texels as usize].get_or_init(|| build_levels(&self.texture, texels));
+    fn levels(&self, texels: Texels) -> &[Level] {
+        let build = || build_levels(&self.texture, texels);
+        let of = |kept: usize| &self.levels[kept];
+        match texels {
+            Texels::Linear => of(0).get_or_init(build),
+            Texels::Opaque => of(1).get_or_init(build),
+            Texels::Covering => of(2).get_or_init(build),
+            Texels::Cut { least } => {
+                let cuts = self.cuts.get_or_init(|| (0..Texels::CUTS).map(|_| OnceLock::new()).collect());
+                cuts[usize::from(least)].get_or_init(build)
+            }
+        }
+    }
+
+    /// Which level has texels of about `uv_area`.
+    fn level_of(&self, levels: &[Level], uv_area: f64) -> f64 {
         let [width, height] = size_of(&self.texture);
         let texel_area = uv_area * width as f64 * height as f64;
         // `max` also turns the NaN of a degenerate mapping into the finest level.
-        let lod = (0.5 * texel_area.log2()).max(0.0).min(levels.len() as f64);
-        let (fine, blend) = (lod as usize, lod.fract());
-        let mut sum = self.sample_level(levels, fine, texels, uv);
-        if blend > 0.0 {
-            let coarse = self.sample_level(levels, fine + 1, texels, uv);
-            sum = std::array::from_fn(|c| sum[c] + blend * (coarse[c] - sum[c]));
-        }
-        if texels == Texels::Covering && sum[3] > 0.0 {
-            for c in 0..3 {
-                sum[c] /= sum[3];
-            }
-        }
-        sum
+        (0.5 * texel_area.log2()).max(0.0).min(levels.len() as f64)
+    }
+
+    fn sample(&self, texels: Texels, uv: DVec2, uv_area: f64) -> [f64; 4] {
+        let levels = self.levels(texels);
+        straight(texels, self.blended(levels, texels, uv, self.level_of(levels, uv_area)))
+    }
+
+    fn sample_cut(&self, least: u16, uv: DVec2, uv_area: f64, is_there: impl Fn(f64) -> bool) -> [f64; 4] {
+        let cut = Texels::Cut { least };
+        let levels = self.levels(cut);
+        let level = self.level_of(levels, uv_area);
+        // Between texels of the file's image alpha is blended before it is cut; shares are blended as they are.
+        let finest = straight(Texels::Covering, self.sample_level(&[], 0, Texels::Covering, uv));
+        let presence = f64::from(u8::from(is_there(finest[3])));
+        let finest = [finest[0] * presence, finest[1] * presence, finest[2] * presence, presence];
+        let coarse = self.blended(levels, cut, uv, level.max(1.0).min(levels.len() as f64));
+        straight(cut, mix(finest, coarse, level.min(1.0)))
+    }
+
+    /// Between the two levels around one.
+    fn blended(&self, levels: &[Level], texels: Texels, uv: DVec2, level: f64) -> [f64; 4] {
+        let (fine, blend) = (level as usize, level.fract());
+        let sum = self.sample_level(levels, fine, texels, uv);
+        if blend > 0.0 { mix(sum, self.sample_level(levels, fine + 1, texels, uv), blend) } else { sum }
     }
 
     fn sample_level(&self, levels: &[Level], level: usize, texels: Texels, uv: DVec2) -> [f64; 4] {
@@ -95,8 +134,19 @@ impl Pyramids {
         }
         let [(x0, x1, tx), (y0, y1, ty)] =
             [0, 1].map(|axis| neighbours(self.texture.wrap[axis], place[axis], size[axis]));
-        let mix = |a: [f64; 4], b: [f64; 4], t: f64| std::array::from_fn(|c| a[c] + t * (b[c] - a[c]));
         mix(mix(fetch(x0, y0), fetch(x1, y0), tx), mix(fetch(x0, y1), fetch(x1, y1), tx), ty)
+    }
+}
+
+fn mix(a: [f64; 4], b: [f64; 4], t: f64) -> [f64; 4] {
+    std::array::from_fn(|c| a[c] + t * (b[c] - a[c]))
+}
+
+/// Colours as they are, of colours times alpha.
+fn straight(texels: Texels, [r, g, b, alpha]: [f64; 4]) -> [f64; 4] {
+    match texels {
+        Texels::Covering | Texels::Cut { .. } if alpha > 0.0 => [r / alpha, g / alpha, b / alpha, alpha],
+        _ => [r, g, b, alpha],
     }
 }
 
@@ -140,18 +190,12 @@ fn base_texel(texture: &Texture, texels: Texels, x: usize, y: usize) -> [f64; 4]
     let bytes = texture.image.as_raw();
     let start = 4 * (y * texture.image.width() as usize + x);
     let [r, g, b, a] = std::array::from_fn(|c| bytes[start + c]);
-    let alpha = f64::from(a) / 255.0;
-    match texels {
-        Texels::Linear => [r, g, b, a].map(|byte| f64::from(byte) / 255.0),
-        Texels::Opaque => {
-            let [r, g, b] = [r, g, b].map(srgb_to_linear);
-            [r, g, b, 1.0]
-        }
-        Texels::Covering => {
-            let [r, g, b] = [r, g, b].map(|byte| alpha * srgb_to_linear(byte));
-            [r, g, b, alpha]
-        }
+    if texels == Texels::Linear {
+        return [r, g, b, a].map(|byte| f64::from(byte) / 255.0);
     }
+    let presence = texels.presence(a);
+    let [r, g, b] = [r, g, b].map(|byte| presence * srgb_to_linear(byte));
+    [r, g, b, presence]
 }
 
 /// Levels 1 and up, to a single texel.
@@ -159,44 +203,14 @@ fn build_levels(texture: &Texture, texels: Texels) -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
     let mut size = size_of(texture);
     while size != [1, 1] {
-        let next = match levels.last() {
-            None => halve(size, |x, y| base_texel(texture, texels, x, y)),
-            Some(level) => halve(size, |x, y| level.texel(x, y)),
-        };
-        size = next.size;
-        levels.push(next);
+        let finer = levels.last();
+        let (half, means) = box_filtered(size, |x, y| match finer {
+            None => base_texel(texture, texels, x, y),
+            Some(level) => level.texel(x, y),
+        });
+        let texels = means.map(|mean| mean.map(|value| (value * 65535.0).round() as u16)).collect();
+        levels.push(Level { size: half, texels });
+        size = half;
     }
     levels
-}
-
-fn halve(size: [usize; 2], texel: impl Fn(usize, usize) -> [f64; 4]) -> Level {
-    let half = size.map(|n| (n / 2).max(1));
-    let columns: Vec<Vec<(usize, f64)>> = (0..half[0]).map(|x| footprint(x, size[0], half[0])).collect();
-    let mut texels = Vec::with_capacity(half[0] * half[1]);
-    for y in 0..half[1] {
-        let rows = footprint(y, size[1], half[1]);
-        for column in &columns {
-            let mut sum = [0.0; 4];
-            for &(sy, wy) in &rows {
-                for &(sx, wx) in column {
-                    let value = texel(sx, sy);
-                    for c in 0..4 {
-                        sum[c] += wx * wy * value[c];
-                    }
-                }
-            }
-            texels.push(sum.map(|value| (value * 65535.0).round() as u16));
-        }
-    }
-    Level { size: half, texels }
-}
-
-/// Source texels under target texel `i`, and their shares, which sum to 1.
-fn footprint(i: usize, size: usize, half: usize) -> Vec<(usize, f64)> {
-    let scale = size as f64 / half as f64;
-    let (from, to) = (i as f64 * scale, (i + 1) as f64 * scale);
-    (from as usize..size.min(to.ceil() as usize))
-        .map(|s| (s, (to.min((s + 1) as f64) - from.max(s as f64)) / scale))
-        .filter(|&(_, share)| share > 0.0)
-        .collect()
 }

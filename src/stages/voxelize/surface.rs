@@ -1,15 +1,16 @@
 //! What a material shows at a point of a triangle: glTF's metallic-roughness, in linear light.
 
-use glam::{DVec3, Vec2, Vec4};
+use glam::{DVec2, DVec3, Vec2, Vec4};
 
-use super::pyramid::{Texels, TexturePyramids};
+use super::pyramid::TexturePyramids;
+use crate::data::texels::Texels;
 use crate::scene::{AlphaMode, Material, Primitive, TextureRef};
 
 /// A surface averaged over a piece of a triangle. Linear; all but emission in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Surface {
     pub color: [f64; 3],
-    /// How much of the piece is there: 1 unless the material blends; 0 where a mask cuts it out.
+    /// How much of the piece is there: 1 unless the material blends, or a mask cuts.
     pub opacity: f64,
     pub metallic: f64,
     pub roughness: f64,
@@ -31,20 +32,31 @@ impl SurfaceReader<'_> {
             None => [1.0; 4],
         };
         let material = self.material;
-        let texels = if material.alpha_mode == AlphaMode::Opaque { Texels::Opaque } else { Texels::Covering };
-        let texture = sample(material.base_color_texture, texels);
         let vertex = self.vertex_color(vertices, place);
-        let base: [f64; 4] =
-            std::array::from_fn(|c| (f64::from(material.base_color[c]) * texture[c] * vertex[c]).clamp(0.0, 1.0));
+        let factor: [f64; 4] = std::array::from_fn(|c| f64::from(material.base_color[c]) * vertex[c]);
+        let texels = Texels::of_base_color(material);
+        let texture = match (material.alpha_mode, texels) {
+            (AlphaMode::Mask { cutoff }, Texels::Cut { least }) => {
+                let is_there = |alpha: f64| (factor[3] * alpha) as f32 >= cutoff;
+                let rgba = material.base_color_texture.map_or([1.0; 4], |slot| {
+                    let footprint = self.footprint(slot, vertices, place, share);
+                    self.textures.sample_cut(slot.texture, least, footprint, is_there)
+                });
+                // Shares are those without colours of vertices; what these cut out altogether is not there.
+                [rgba[0], rgba[1], rgba[2], if is_there(1.0) { rgba[3] } else { 0.0 }]
+            }
+            _ => sample(material.base_color_texture, texels),
+        };
+        let base: [f64; 3] = std::array::from_fn(|c| (factor[c] * texture[c]).clamp(0.0, 1.0));
         let opacity = match material.alpha_mode {
             AlphaMode::Opaque => 1.0,
-            AlphaMode::Mask { cutoff } => f64::from(u8::from(base[3] >= f64::from(cutoff))),
-            AlphaMode::Blend => base[3],
+            AlphaMode::Mask { .. } => texture[3],
+            AlphaMode::Blend => (factor[3] * texture[3]).clamp(0.0, 1.0),
         };
         let [_, rough, metal, _] = sample(material.metallic_roughness_texture, Texels::Linear);
         let glow = sample(material.emissive_texture, Texels::Opaque);
         Surface {
-            color: [base[0], base[1], base[2]],
+            color: base,
             opacity,
             metallic: (f64::from(material.metallic) * metal).clamp(0.0, 1.0),
             roughness: (f64::from(material.roughness) * rough).clamp(0.0, 1.0),
@@ -53,6 +65,12 @@ impl SurfaceReader<'_> {
     }
 
     fn sample(&self, slot: TextureRef, texels: Texels, vertices: [u32; 3], place: DVec3, share: f64) -> [f64; 4] {
+        let (uv, uv_area) = self.footprint(slot, vertices, place, share);
+        self.textures.sample(slot.texture, texels, uv, uv_area)
+    }
+
+    /// Texture coordinates of the piece, and what it covers of the unit square.
+    fn footprint(&self, slot: TextureRef, vertices: [u32; 3], place: DVec3, share: f64) -> (DVec2, f64) {
         let coordinates = self.primitive.tex_coords.get(slot.tex_coord).map_or(&[][..], Vec::as_slice);
         let corner = |vertex: u32| {
             let tex_coord: Vec2 = coordinates.get(vertex as usize).copied().unwrap_or_default();
@@ -60,8 +78,7 @@ impl SurfaceReader<'_> {
         };
         let [a, b, c] = vertices.map(corner);
         let uv = a * place.x + b * place.y + c * place.z;
-        let uv_area = 0.5 * (b - a).perp_dot(c - a).abs() * share;
-        self.textures.sample(slot.texture, texels, uv, uv_area)
+        (uv, 0.5 * (b - a).perp_dot(c - a).abs() * share)
     }
 
     fn vertex_color(&self, vertices: [u32; 3], place: DVec3) -> [f64; 4] {
