@@ -57,15 +57,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
             }
             let color = vec4<u32>(unpack_rgb8(voxel.w), 1u);
             let normal = unpack_biased(voxel.z);
+            let gap = uncovered(voxel.w);
             let xy = vec4<u32>(w.x * w.y.x, w.x * w.y.y);
-            l0 = add_fragment(l0, xy.x * w.z.x, color, normal);
-            l1 = add_fragment(l1, xy.y * w.z.x, color, normal);
-            l2 = add_fragment(l2, xy.z * w.z.x, color, normal);
-            l3 = add_fragment(l3, xy.w * w.z.x, color, normal);
-            l4 = add_fragment(l4, xy.x * w.z.y, color, normal);
-            l5 = add_fragment(l5, xy.y * w.z.y, color, normal);
-            l6 = add_fragment(l6, xy.z * w.z.y, color, normal);
-            l7 = add_fragment(l7, xy.w * w.z.y, color, normal);
+            l0 = add_fragment(l0, covered_weight(xy.x * w.z.x, gap), color, normal);
+            l1 = add_fragment(l1, covered_weight(xy.y * w.z.x, gap), color, normal);
+            l2 = add_fragment(l2, covered_weight(xy.z * w.z.x, gap), color, normal);
+            l3 = add_fragment(l3, covered_weight(xy.w * w.z.x, gap), color, normal);
+            l4 = add_fragment(l4, covered_weight(xy.x * w.z.y, gap), color, normal);
+            l5 = add_fragment(l5, covered_weight(xy.y * w.z.y, gap), color, normal);
+            l6 = add_fragment(l6, covered_weight(xy.z * w.z.y, gap), color, normal);
+            l7 = add_fragment(l7, covered_weight(xy.w * w.z.y, gap), color, normal);
         }
     }
     if fragments > MAX_FRAGMENTS {

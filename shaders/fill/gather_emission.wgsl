@@ -42,8 +42,9 @@ fn add_range(before: EmissionSum, range: vec2<u32>, leaf: u32, block_cell: vec3<
     let offset = corner_offset(leaf);
     var sum = before;
     for (var i = range.x; i < range.y; i += 1u) {
-        let w = block_weights(sorted_voxels[i].xy, block_cell);
-        let weight = w.x[offset.x] * w.y[offset.y] * w.z[offset.z];
+        let voxel = sorted_voxels[i];
+        let w = block_weights(voxel.xy, block_cell);
+        let weight = covered_weight(w.x[offset.x] * w.y[offset.y] * w.z[offset.z], uncovered(voxel.w));
         if weight != 0u {
             let emission = unpack_emission(sorted_emission[i]);
             sum.weight = wide_add(sum.weight, vec2<u32>(weight, 0u));

@@ -45,8 +45,8 @@ fn sum_leaf(first: u32, end: u32, leaf: u32, block_cell: vec3<i32>) -> LeafSum {
     let offset = corner_offset(leaf);
     for (var i = first; i < end; i += GROUP_THREADS) {
         let w = block_weights(sorted_voxels[i].xy, block_cell);
-        let weight = w.x[offset.x] * w.y[offset.y] * w.z[offset.z];
         let packed = sorted_voxels[i].zw;
+        let weight = covered_weight(w.x[offset.x] * w.y[offset.y] * w.z[offset.z], uncovered(packed.y));
         sum = add_fragment(sum, weight, vec4<u32>(unpack_rgb8(packed.y), 1u), unpack_biased(packed.x));
     }
     return sum;

@@ -2,7 +2,7 @@
 //
 //   word 0  qx 19 | qy low 13        q + 256 = 256·(cell + 1) + fraction, per axis: the guard layer
 //   word 1  qy high 6 | qz 19        of one cell keeps base −1 representable
-//   word 2  normal, packed           word 3  albedo, rgba8
+//   word 2  normal, packed           word 3  albedo, rgb8, and coverage 8
 //
 // One quotient, then cell and fraction of that same number (Eq. 2): q >> 8 and q & 255.
 #import constants
@@ -30,4 +30,15 @@ fn fraction(q: vec3<i32>) -> vec3<u32> {
 
 fn nearest_cell(q: vec3<i32>) -> vec3<i32> {
     return (q + vec3<i32>(i32(FRACTION_ONE / 2u))) >> vec3<u32>(FRACTION_BITS);
+}
+
+// What a voxel's surface leaves free of its cell, 256ths: never all of it. `color` is word 3.
+fn uncovered(color: u32) -> u32 {
+    let coverage = color >> 24u;
+    return FRACTION_ONE - max(coverage + (coverage >> 7u), 1u);
+}
+
+// The part of a weight (up to 2^24) that counts; nothing that had weight loses all of it.
+fn covered_weight(weight: u32, uncovered: u32) -> u32 {
+    return weight - ((weight * uncovered) >> FRACTION_BITS);
 }

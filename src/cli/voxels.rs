@@ -64,7 +64,7 @@ impl Voxels {
             prepared.exact_voxels(&settings.motion, &hidden, progress)
         })?;
         output::warnings(&surface.warnings);
-        Ok((full_cells(&surface.voxels), prepared.grid))
+        Ok((exact_cells(&surface.voxels), prepared.grid))
     }
 
     fn writer(&self) -> Result<Write, Usage> {
@@ -76,11 +76,11 @@ impl Voxels {
     }
 }
 
-/// An exact cell is occupied or it is not.
-fn full_cells(exact: &[ExactVoxel]) -> WorldVoxels {
+/// An exact cell is occupied as far as its surface covers it.
+fn exact_cells(exact: &[ExactVoxel]) -> WorldVoxels {
     WorldVoxels {
         cells: exact.iter().map(|voxel| morton_cell(voxel.key).map(|c| c as i32)).collect(),
-        occupancy: vec![1.0; exact.len()],
+        occupancy: exact.iter().map(|voxel| voxel.coverage as f32).collect(),
         albedo: exact.iter().map(|voxel| voxel.albedo.map(|channel| channel as f32)).collect(),
         normal: exact.iter().map(|voxel| voxel.normal.as_vec3().to_array()).collect(),
     }

@@ -25,8 +25,8 @@ pub struct OctreeReport {
     pub levels: Vec<LevelReport>,
     /// Moved voxels.
     pub voxels: u64,
-    /// Weights are in 2^-24 voxels: kept + clipped = 2^24 · voxels, and what occupancies above
-    /// one lost is excess: kept − excess = occupancy.
+    /// Weights are in 2^-24 voxels: kept + clipped = 2^24 · voxels, and excess is what occupancies above
+    /// one lost and what masks and blended surfaces leave uncovered: kept − excess = occupancy.
     pub kept_weight: u64,
     pub clipped_weight: u64,
     pub excess_weight: u64,

@@ -31,8 +31,19 @@ pub struct ExactVoxels {
 pub struct ExactVoxel {
     pub key: u32,
     pub albedo: [f64; 3],
+    /// Share that masks and blended surfaces leave of the cell, 0 to 1: that of the object that covers most.
+    pub coverage: f64,
     /// Mean over the objects in the cell; short where they disagree.
     pub normal: DVec3,
+}
+
+/// What the objects in a cell look like.
+#[derive(Clone, Copy, Debug, Default)]
+struct CellSum {
+    objects: f64,
+    albedo: [f64; 3],
+    coverage: f64,
+    normal: DVec3,
 }
 
 /// The covered cells sorted by Morton key, and a sentence for each object that could not be voxelized.
@@ -88,21 +99,23 @@ impl Prepared {
             Some(voxelize::voxelize(&input, progress))
         })?;
         let mut warnings = Vec::new();
-        let mut sums: BTreeMap<u32, (f64, [f64; 3], DVec3)> = BTreeMap::new();
+        let mut sums: BTreeMap<u32, CellSum> = BTreeMap::new();
         for cache in caches.into_iter().filter_map(|cache| cache.map_err(|warning| warnings.push(warning)).ok()) {
             for (cell, voxel) in cache.cells().zip(&cache.voxels) {
                 let Some(key) = self.key_inside(cell) else { continue };
                 let sum = sums.entry(key).or_default();
                 let albedo = unpack_rgba8(voxel.albedo);
-                sum.0 += 1.0;
-                (0..3).for_each(|channel| sum.1[channel] += albedo[channel]);
-                sum.2 += unpack_normal(voxel.normal);
+                sum.objects += 1.0;
+                (0..3).for_each(|channel| sum.albedo[channel] += albedo[channel]);
+                sum.coverage = sum.coverage.max(albedo[3]);
+                sum.normal += unpack_normal(voxel.normal);
             }
         }
-        let mean = |(key, (count, albedo, normal)): (u32, (f64, [f64; 3], DVec3))| ExactVoxel {
+        let mean = |(key, sum): (u32, CellSum)| ExactVoxel {
             key,
-            albedo: albedo.map(|sum| sum / count),
-            normal: normal / count,
+            albedo: sum.albedo.map(|channel| channel / sum.objects),
+            coverage: sum.coverage,
+            normal: sum.normal / sum.objects,
         };
         Ok(ExactSurface { voxels: sums.into_iter().map(mean).collect(), warnings })
     }

@@ -39,7 +39,7 @@ fn assert_equals_reference(voxels: &[Fragment], shape: &Shape) {
 }
 
 fn at(cell: [i64; 3], albedo: [u32; 3], normal: [u32; 3]) -> Fragment {
-    Fragment { q: cell.map(|c| c * ONE), normal, albedo }
+    Fragment { q: cell.map(|c| c * ONE), normal, albedo, coverage: 255 }
 }
 
 /// Fisher and Yates.
@@ -72,7 +72,12 @@ fn a_million_fragments_in_one_cell_are_summed_exactly() {
     let shape = small(Filter::Split);
     let mut voxel = || {
         let q = [3, 2, 5].map(|cell| rng.random_range(cell * ONE..(cell + 1) * ONE));
-        Fragment { q, normal: [1022, rng.random_range(0..=1022), 0], albedo: [255, rng.random_range(0..=255), 1] }
+        Fragment {
+            q,
+            normal: [1022, rng.random_range(0..=1022), 0],
+            albedo: [255, rng.random_range(0..=255), 1],
+            coverage: 255,
+        }
     };
     let voxels: Vec<Fragment> = (0..1_000_000).map(|_| voxel()).collect();
     let sums = sums(voxels.iter().copied(), shape.depth, shape.filter);
@@ -120,7 +125,12 @@ fn equal_inputs_give_that_value_however_many() {
         for byte in [0, 1, 26, 127, 140, 254, 255] {
             let normal = [byte, 1022 - byte, 511];
             let mut rng = random::rng(u64::from(byte));
-            let voxel = |rng: &mut _| Fragment { q: random::voxel(rng, 1).q, normal, albedo: [byte, 255 - byte, 13] };
+            let voxel = |rng: &mut _| Fragment {
+                q: random::voxel(rng, 1).q,
+                normal,
+                albedo: [byte, 255 - byte, 13],
+                coverage: 255,
+            };
             let voxels: Vec<_> = (0..count).map(|_| voxel(&mut rng)).collect();
             let built = build(&voxels, &Shape::new(1, 0, Filter::Split));
             let leaves = rules::leaves(&built).expect("leaves");
@@ -139,8 +149,10 @@ fn a_corner_of_weight_zero_has_no_leaf_and_changes_none() {
         let steps = [off & 1, off >> 1 & 1, off >> 2 & 1];
         let q = [0, 1, 2].map(|axis| 3 * ONE + 77 * steps[axis]);
         let neighbour = at([4; 3], [200; 3], [511; 3]);
-        let found =
-            built_leaves(&[Fragment { q, normal: [511; 3], albedo: [10; 3] }, neighbour], &small(Filter::Split));
+        let found = built_leaves(
+            &[Fragment { q, normal: [511; 3], albedo: [10; 3], coverage: 255 }, neighbour],
+            &small(Filter::Split),
+        );
         let expected = (1 << off.count_ones()) + usize::from(off != 7);
         assert_eq!(found.len(), expected, "{steps:?}");
         assert_eq!(found[&[4; 3]].albedo == [200; 3], off != 7);
@@ -165,7 +177,7 @@ fn opposed_normals_are_flagged_by_zero_length() {
 #[test]
 fn sums_are_taken_before_occupancy_is_clamped_and_the_excess_is_known() {
     // Three full voxels and a half one: 3.5 voxels in a leaf that holds one.
-    let half = Fragment { q: [ONE + ONE / 2, ONE, ONE], normal: [511; 3], albedo: [255; 3] };
+    let half = Fragment { q: [ONE + ONE / 2, ONE, ONE], normal: [511; 3], albedo: [255; 3], coverage: 255 };
     let voxels = [at([1; 3], [0; 3], [511; 3]), at([1; 3], [0; 3], [511; 3]), at([1; 3], [0; 3], [511; 3]), half];
     let built = build(&voxels, &small(Filter::Split));
     let found = rules::leaves(&built).expect("leaves");
@@ -182,7 +194,7 @@ fn sums_are_taken_before_occupancy_is_clamped_and_the_excess_is_known() {
 fn a_leaf_one_unit_short_of_full_is_not_full() {
     // In cell 0: 255·256·256, 255·256·1 and 255·1·1 units, together 2^24 − 1; then the last one.
     let rest = [[1, 0, 0], [1, 0, 255], [1, 255, 255], [255, 255, 255]];
-    let voxels = rest.map(|q| Fragment { q, normal: [511; 3], albedo: [77; 3] });
+    let voxels = rest.map(|q| Fragment { q, normal: [511; 3], albedo: [77; 3], coverage: 255 });
     let occupancy = |voxels: &[Fragment]| built_leaves(voxels, &small(Filter::Split))[&[0; 3]].occupancy;
     assert_eq!(occupancy(&voxels[..3]), FULL_WEIGHT - 1);
     assert_eq!(occupancy(&voxels), FULL_WEIGHT);

@@ -19,7 +19,7 @@ fn build(voxels: &[Fragment], dense_level: u32) -> Built {
 }
 
 fn voxel(q: [i64; 3], albedo: [u32; 3]) -> Fragment {
-    Fragment { q, normal: [511, 511, 1022], albedo }
+    Fragment { q, normal: [511, 511, 1022], albedo, coverage: 255 }
 }
 
 #[test]
@@ -101,9 +101,9 @@ fn black_but_opaque_is_occupied() {
 
 #[test]
 fn opposed_surfaces_average_to_a_short_normal() {
-    let up = Fragment { q: [2 * ONE; 3], normal: [511, 511, 1022], albedo: [9; 3] };
-    let down = Fragment { q: [20 * ONE; 3], normal: [511, 511, 0], albedo: [9; 3] };
-    let side = Fragment { q: [2 * ONE, 20 * ONE, 2 * ONE], normal: [1022, 511, 511], albedo: [9; 3] };
+    let up = Fragment { q: [2 * ONE; 3], normal: [511, 511, 1022], albedo: [9; 3], coverage: 255 };
+    let down = Fragment { q: [20 * ONE; 3], normal: [511, 511, 0], albedo: [9; 3], coverage: 255 };
+    let side = Fragment { q: [2 * ONE, 20 * ONE, 2 * ONE], normal: [1022, 511, 511], albedo: [9; 3], coverage: 255 };
     let root = |voxels: &[Fragment]| rules::node(build(voxels, 2).nodes[0]).normal;
     assert_eq!(root(&[up, down]), [511.0; 3]);
     // Each in its own octant, so that the root rounds first: (511 + 511 + 1022) / 3 = 681.33 along x, (1022 + 0 + 511) / 3 = 511 along z.

@@ -65,7 +65,7 @@ fn solid(low: [i64; 3], high: [i64; 3], raise: i64) -> impl Iterator<Item = Frag
     let size = [0, 1, 2].map(|axis| high[axis] - low[axis]);
     (0..size.iter().product()).map(move |i| {
         let [x, y, z] = [low[0] + i % size[0], low[1] + i / size[0] % size[1], low[2] + i / (size[0] * size[1])];
-        Fragment { q: [x * ONE, y * ONE, z * ONE + raise], normal: [511, 511, 1022], albedo: [128; 3] }
+        Fragment { q: [x * ONE, y * ONE, z * ONE + raise], normal: [511, 511, 1022], albedo: [128; 3], coverage: 255 }
     })
 }
 
@@ -126,7 +126,12 @@ fn a_slanting_plane_sees_all_of_the_sky() {
     let cuts = |cell: DVec3| (cell + 0.5 - point).dot(face).abs() <= 0.5 * face.abs().element_sum();
     let cells = (0..CELLS.pow(3)).map(|i| [i % CELLS, i / CELLS % CELLS, i / CELLS.pow(2)]);
     let cells = cells.filter(|cell| cuts(DVec3::from_array(cell.map(|c| c as f64))));
-    let voxels = cells.map(|cell| Fragment { q: cell.map(|c| c * ONE), normal: [511, 511, 1022], albedo: [128; 3] });
+    let voxels = cells.map(|cell| Fragment {
+        q: cell.map(|c| c * ONE),
+        normal: [511, 511, 1022],
+        albedo: [128; 3],
+        coverage: 255,
+    });
     let octree = built(voxels, |_| 0.0);
     for degrees in [2.0, 30.0, 60.0] {
         let [radiance, open] = seen(&octree, Opacity::Isotropic, &tracing(4, degrees), (point, face));

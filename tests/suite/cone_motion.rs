@@ -61,7 +61,7 @@ fn moving(filter: Filter, shift: i64) -> LitBuild {
         (0..size.iter().product::<i64>()).map(move |i| {
             let cell = [low[0] + i % size[0], low[1] + i / size[0] % size[1], low[2] + i / (size[0] * size[1])];
             let q = [cell[0] * ONE + offset, cell[1] * ONE, cell[2] * ONE];
-            Fragment { q, normal: [511, 511, 1022], albedo: [128; 3] }
+            Fragment { q, normal: [511, 511, 1022], albedo: [128; 3], coverage: 255 }
         })
     };
     let block = solid([10, 12, 6], [15, 18, 16], shift * ONE / 32);

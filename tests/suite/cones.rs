@@ -48,7 +48,7 @@ fn cones(count: u32, aperture_degrees: f64) -> Cones {
 fn solid(low: Cell, high: Cell, normal: [u32; 3]) -> impl Iterator<Item = Fragment> {
     let row = move |y: u32, z: u32| (low[0]..high[0]).map(move |x| [x, y, z]);
     let cells = (low[2]..high[2]).flat_map(move |z| (low[1]..high[1]).flat_map(move |y| row(y, z)));
-    cells.map(move |cell| Fragment { q: cell.map(|c| i64::from(c) * ONE), normal, albedo: [128; 3] })
+    cells.map(move |cell| Fragment { q: cell.map(|c| i64::from(c) * ONE), normal, albedo: [128; 3], coverage: 255 })
 }
 
 /// 16³ voxels of opacity `alpha`.

@@ -88,7 +88,7 @@ fn every_leaf_emits_the_mean_of_what_reaches_it() {
         let (sorted, emits) = place_emission_ref::place_emission(&units, &places, &starts[..blocks]);
         assert_eq!(found.sorted, sorted);
         assert_eq!(found.emits.iter().map(|word| *word == 1).collect::<Vec<_>>(), emits);
-        let pairs = voxels.iter().map(|voxel| voxel.q).zip(units);
+        let pairs = voxels.iter().zip(units).map(|(voxel, unit)| (voxel.q, voxel.coverage, unit));
         let expected = gather_emission_ref::gather_emission(pairs, 5, filter);
         assert_eq!(expected.len(), found.leaves.len());
         for (cell, slot) in rules::leaf_slots(&found.built) {

@@ -64,7 +64,7 @@ fn room(thickness: u32) -> Vec<Fragment> {
     let voxel = |cell: Cell| {
         let normal = DVec3::from_array(cell.map(inward)).try_normalize()?;
         let normal = (normal * 511.0 + 511.0).round().to_array().map(|c| c as u32);
-        Some(Fragment { q: cell.map(|c| i64::from(c) * ONE), normal, albedo: [255; 3] })
+        Some(Fragment { q: cell.map(|c| i64::from(c) * ONE), normal, albedo: [255; 3], coverage: 255 })
     };
     cells.filter_map(voxel).collect()
 }

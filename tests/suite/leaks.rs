@@ -35,7 +35,7 @@ pub struct LeakRow {
 fn wall(thickness: i64, offset: i64) -> LitBuild {
     let voxel = |i: i64| {
         let (x, y, z) = (FIRST + i % thickness, i / thickness % CELLS, i / (thickness * CELLS));
-        Fragment { q: [x * ONE + offset, y * ONE, z * ONE], normal: [1022, 511, 511], albedo: [255; 3] }
+        Fragment { q: [x * ONE + offset, y * ONE, z * ONE], normal: [1022, 511, 511], albedo: [255; 3], coverage: 255 }
     };
     let voxels: Vec<_> = (0..thickness * CELLS * CELLS).map(voxel).collect();
     LitBuild::new(gpu(), &voxels, &Shape::new(DEPTH, 2, Filter::Split), |_, a| (DVec3::ONE, a))

@@ -53,7 +53,7 @@ pub fn light(kind: LightKind, strength: DVec3, position: DVec3, direction: DVec3
 pub fn full(cell: [i64; 3], normal: DVec3, albedo: [u32; 3]) -> Fragment {
     let packed = octolume::data::packing::pack_normal(normal);
     let normal = [0, 10, 20].map(|shift| packed >> shift & 0x3ff);
-    Fragment { q: cell.map(|c| c * ONE), normal, albedo }
+    Fragment { q: cell.map(|c| c * ONE), normal, albedo, coverage: 255 }
 }
 
 impl LightRig {

@@ -134,7 +134,7 @@ fn a_lone_voxel_is_reached_from_all_its_dummies() {
         assert_hops_arrive(&linked(&[aligned(cell)], &Shape::new(6, 0, Filter::Nearest)));
     }
     // A voxel in eight leaves, across the border of all levels.
-    let straddling = Fragment { q: [32 * ONE - ONE / 2; 3], normal: [511; 3], albedo: [1; 3] };
+    let straddling = Fragment { q: [32 * ONE - ONE / 2; 3], normal: [511; 3], albedo: [1; 3], coverage: 255 };
     assert_hops_arrive(&linked(&[straddling], &Shape::new(6, 0, Filter::Split)));
 }
 

@@ -91,7 +91,8 @@ pub fn skinned_part(rng: &mut TestRng, count: usize, maps: &[DAffine3]) -> RigPa
 /// The cache as a world voxel holds it, without motion.
 pub fn as_fragment(voxel: &CacheVoxel, cell: [i64; 3]) -> Fragment {
     let tens = [0, 10, 20].map(|shift| voxel.normal >> shift & 0x3ff);
-    Fragment { q: cell.map(|c| c * ONE), normal: tens, albedo: [0, 8, 16].map(|shift| voxel.albedo >> shift & 0xff) }
+    let albedo = [0, 8, 16].map(|shift| voxel.albedo >> shift & 0xff);
+    Fragment { q: cell.map(|c| c * ONE), normal: tens, albedo, coverage: voxel.albedo >> 24 }
 }
 
 pub fn position(voxel: &CacheVoxel) -> [i64; 3] {

@@ -34,7 +34,7 @@ pub fn build_checked(gpu: &Gpu, voxels: &[Fragment], shape: &Shape) -> Built {
 }
 
 pub fn aligned(cell: [i64; 3]) -> Fragment {
-    Fragment { q: cell.map(|c| c * ONE), normal: [511, 511, 1022], albedo: [200, 100, 50] }
+    Fragment { q: cell.map(|c| c * ONE), normal: [511, 511, 1022], albedo: [200, 100, 50], coverage: 255 }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use octolume::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, mask_words};
 use octolume::stages::averaging::average_ref::{self, Node};
 use octolume::stages::build::{reduce_ref, scan_spread_ref};
 use octolume::stages::fill::count_ref::Block;
-use octolume::stages::fill::gather_ref::{self, Leaf};
+use octolume::stages::fill::gather_ref::{self, Fragment, Leaf};
 
 use crate::stage_build::Built;
 use crate::stage_checks::{Check, Expected, ensure, same};
@@ -160,7 +160,7 @@ fn check_node(found: &Node, expected: &Node) -> Check {
 }
 
 /// Occupied volume is the same at every level; kept + clipped = total, and what clamping took is
-/// what the leaves' raw sums exceed a full cell by.
+/// what the leaves' raw sums exceed a full cell by; what surfaces leave uncovered is not kept.
 pub fn check_conservation(built: &Built, expected: &Expected) -> Check {
     let leaves: u128 = leaves(built)?.values().map(|leaf| u128::from(leaf.occupancy)).sum();
     let mut levels = vec![0_u128; built.params.depth as usize];
@@ -171,7 +171,10 @@ pub fn check_conservation(built: &Built, expected: &Expected) -> Check {
     let total = u128::from(FULL_WEIGHT) * expected.fragments.len() as u128;
     let sums = gather_ref::sums(expected.fragments.iter().flatten().copied(), built.params.depth, expected.filter());
     let excess: u128 = sums.values().map(|sum| sum.weight.saturating_sub(FULL_WEIGHT.into())).sum();
-    same("kept + clipped + excess", &(leaves + u128::from(built.clipped) + excess), &total)
+    let whole = expected.fragments.iter().flatten().map(|voxel| Fragment { coverage: 255, ..*voxel });
+    let weight = |sums: &BTreeMap<_, gather_ref::LeafSum>| sums.values().map(|sum| sum.weight).sum::<u128>();
+    let uncovered = weight(&gather_ref::sums(whole, built.params.depth, expected.filter())) - weight(&sums);
+    same("kept + clipped + excess + uncovered", &(leaves + u128::from(built.clipped) + excess + uncovered), &total)
 }
 
 /// For every occupied node of every level the eight corners of an interpolation whose sample was

@@ -60,7 +60,7 @@ fn crowded(seed: u64) -> Vec<Fragment> {
     let mut voxels = random::scene(seed, 3000, DEPTH);
     // Too many for one thread.
     let q = [20, 21, 22].map(|cell| cell * random::ONE + 7);
-    voxels.extend(std::iter::repeat_n(Fragment { q, normal: [511, 511, 1022], albedo: [9; 3] }, 1500));
+    voxels.extend(std::iter::repeat_n(Fragment { q, normal: [511, 511, 1022], albedo: [9; 3], coverage: 255 }, 1500));
     voxels
 }
 

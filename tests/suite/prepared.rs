@@ -204,6 +204,7 @@ fn a_static_object_at_rest_is_a_copy_of_its_cache() {
             q: [0, 1, 2].map(|axis| (position[axis] + i64::from(origin[axis])) * ONE),
             normal: [0, 10, 20].map(|shift| voxel.normal >> shift & 0x3ff),
             albedo: [0, 8, 16].map(|shift| voxel.albedo >> shift & 0xff),
+            coverage: voxel.albedo >> 24,
         };
         assert_eq!(*found, Some(expected));
     }

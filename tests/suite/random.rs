@@ -26,6 +26,8 @@ pub fn with_q(rng: &mut TestRng, q: [i64; 3]) -> Fragment {
         q,
         normal: [(); 3].map(|()| rng.random_range(0..=1022)),
         albedo: [(); 3].map(|()| rng.random_range(0..=255)),
+        // Most surfaces cover their voxels; some are hardly there.
+        coverage: if rng.random_range(0..4) == 0 { rng.random_range(0..=255) } else { 255 },
     }
 }
 

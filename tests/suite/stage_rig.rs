@@ -59,7 +59,7 @@ pub fn lattice_cell(part: &RigPart, voxel: usize) -> [i32; 3] {
 pub fn world_voxel(fragment: &Fragment) -> [u32; 4] {
     let q = pack_q(fragment.q);
     let [n, a] = [fragment.normal, fragment.albedo];
-    [q[0], q[1], n[0] | n[1] << 10 | n[2] << 20, a[0] | a[1] << 8 | a[2] << 16 | 0xff00_0000]
+    [q[0], q[1], n[0] | n[1] << 10 | n[2] << 20, a[0] | a[1] << 8 | a[2] << 16 | fragment.coverage << 24]
 }
 
 /// A world voxel as later stages see it; `None`: it misses the grid.
@@ -68,6 +68,7 @@ pub fn fragment(words: [u32; 4]) -> Option<Fragment> {
         q: unpack_q([words[0], words[1]]),
         normal: [0, 10, 20].map(|shift| words[2] >> shift & 0x3ff),
         albedo: [0, 8, 16].map(|shift| words[3] >> shift & 0xff),
+        coverage: words[3] >> 24,
     })
 }
 

@@ -26,7 +26,7 @@ fn weight_inside_is_kept_and_weight_outside_is_counted_on_both_sides_of_every_fa
                     let mut q = [2 * (out % 16) * ONE; 3];
                     q[(axis + 1) % 3] = 2 * (out / 16) * ONE;
                     q[axis] = if is_near { lower - out } else { lower + out };
-                    Fragment { q, normal: [511; 3], albedo: [7; 3] }
+                    Fragment { q, normal: [511; 3], albedo: [7; 3], coverage: 255 }
                 })
                 .collect();
             let words: Vec<_> = voxels.iter().map(rig::world_voxel).collect();

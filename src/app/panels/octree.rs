@@ -51,7 +51,8 @@ fn weights_ui(ui: &mut Ui, report: &OctreeReport) {
         vec![Cell::new("Kept in the grid"), voxels(report.kept_weight).into()],
         vec![Cell::new("Clipped outside"), voxels(report.clipped_weight).into()],
         vec![
-            Cell::new("Above full cells").tip("What clamping occupancy to 1 removed."),
+            Cell::new("Clamped, uncovered")
+                .tip("What clamping occupancy to 1 removed, and what masks and blended surfaces leave free."),
             voxels(report.excess_weight).into(),
         ],
     ];

@@ -1,6 +1,7 @@
 //! Reference of `gather.wgsl`: what falls into each leaf, as exact 128-bit sums.
 //!
-//! In: world voxels (q, biased normal, 8-bit albedo) and a filter. Out, a leaf with any weight w:
+//! In: world voxels (q, biased normal, 8-bit albedo and coverage) and a filter. A weight is the share of the voxel's
+//! cube in the cell, times the share of the cube that is covered. Out, a leaf with any weight w:
 //! occupancy min(Σw, 2^3k), albedo Σw·a / Σw and normal Σw·n / Σw, both rounded half up, once.
 
 use std::collections::BTreeMap;
@@ -17,6 +18,14 @@ pub struct Fragment {
     pub normal: [u32; 3],
     /// 0 … 255 a component.
     pub albedo: [u32; 3],
+    /// How much of the voxel its surface covers, of 255: less where it is masked or blends.
+    pub coverage: u32,
+}
+
+/// What counts of a weight, in 256ths rounded so that 255 is all of it, and nothing none of it.
+pub fn covered(weight: u64, coverage: u32) -> u64 {
+    let covered = u64::from(coverage + coverage / 128).max(1);
+    weight - weight * (256 - covered) / 256
 }
 
 /// Unrounded, unclamped.
@@ -40,7 +49,7 @@ pub fn sums(voxels: impl IntoIterator<Item = Fragment>, depth: u32, filter: Filt
     for voxel in voxels {
         for (cell, weight) in fragments(voxel.q, filter) {
             if let Some(cell) = inside(cell, depth) {
-                sums.entry(cell).or_default().add(&voxel, u128::from(weight));
+                sums.entry(cell).or_default().add(&voxel, u128::from(covered(weight, voxel.coverage)));
             }
         }
     }
@@ -74,8 +83,8 @@ mod tests {
 
     #[test]
     fn a_quarter_and_three_quarters_mix_as_such() {
-        let dark = Fragment { q: [ONE / 4, 0, 0], normal: [511, 511, 1022], albedo: [0, 0, 200] };
-        let light = Fragment { q: [3 * ONE / 4, 0, 0], normal: [511, 511, 0], albedo: [100, 2, 0] };
+        let dark = Fragment { q: [ONE / 4, 0, 0], normal: [511, 511, 1022], albedo: [0, 0, 200], coverage: 255 };
+        let light = Fragment { q: [3 * ONE / 4, 0, 0], normal: [511, 511, 0], albedo: [100, 2, 0], coverage: 255 };
         let sums = sums([dark, light], 6, Filter::Split);
         let leaf = sums[&[0, 0, 0]].resolve();
         assert_eq!(leaf.occupancy, FULL_WEIGHT);
@@ -85,7 +94,7 @@ mod tests {
 
     #[test]
     fn opposed_normals_have_zero_length() {
-        let up = Fragment { q: [0; 3], normal: [511, 511, 1022], albedo: [9; 3] };
+        let up = Fragment { q: [0; 3], normal: [511, 511, 1022], albedo: [9; 3], coverage: 255 };
         let down = Fragment { normal: [511, 511, 0], ..up };
         let leaf = sums([up, down], 6, Filter::Nearest)[&[0, 0, 0]].resolve();
         assert_eq!((leaf.normal, leaf.occupancy), ([511; 3], FULL_WEIGHT));
