@@ -99,20 +99,16 @@ const SHORTEST_QUATERNION: f64 = 1e-9;
 impl Channel {
     /// What sampling relies on; the cause in words where it does not hold.
     pub fn check(&self) -> Result<(), String> {
-        let (keys, numbers) = (self.times_secs.len(), self.values.len());
-        if keys == 0 {
+        self.check_count()?;
+        if self.times_secs.is_empty() {
             return Err("has no keys".to_owned());
         }
         if let Some(key) = self.times_secs.iter().position(|time| !time.is_finite()) {
             return Err(format!("has a time at key {key} that is not finite"));
         }
-        if let Some(key) = self.times_secs.windows(2).position(|pair| pair[0] >= pair[1]) {
+        if let Some(key) = self.times_secs.windows(2).position(|pair| pair[0] > pair[1]) {
             let [before, after] = [self.times_secs[key], self.times_secs[key + 1]];
-            return Err(format!("has key times that do not increase: {before} s, then {after} s at key {}", key + 1));
-        }
-        let expected = keys * self.numbers_a_key();
-        if numbers != expected {
-            return Err(format!("has {numbers} numbers for {keys} keys, which need {expected}"));
+            return Err(format!("has key times that decrease: {before} s, then {after} s at key {}", key + 1));
         }
         match self.values.iter().position(|value| !value.is_finite()) {
             Some(at) => Err(format!("has a value at key {} that is not finite", at / self.numbers_a_key())),
@@ -120,7 +116,17 @@ impl Channel {
         }
     }
 
-    /// Translation or scale at a time.
+    /// A value a key, or the cause in words.
+    pub fn check_count(&self) -> Result<(), String> {
+        let (keys, numbers) = (self.times_secs.len(), self.values.len());
+        let expected = keys * self.numbers_a_key();
+        match numbers == expected {
+            true => Ok(()),
+            false => Err(format!("has {numbers} numbers for {keys} keys, which need {expected}")),
+        }
+    }
+
+    /// Translation or scale at a time; at the time of several keys the last one's.
     pub fn sample_vector(&self, time_secs: f64) -> DVec3 {
         let value = match self.place(time_secs) {
             Place::At(key) => self.value(key),
@@ -155,7 +161,7 @@ impl Channel {
     fn place(&self, time_secs: f64) -> Place {
         let times = &self.times_secs;
         let last = times.len() - 1;
-        if time_secs.is_nan() || time_secs <= times[0] {
+        if time_secs.is_nan() || time_secs < times[0] {
             return Place::At(0);
         }
         if time_secs >= times[last] {
@@ -169,7 +175,7 @@ impl Channel {
         Place::After { key, fraction: (time_secs - times[key]) / interval_secs, interval_secs }
     }
 
-    fn numbers_a_key(&self) -> usize {
+    pub fn numbers_a_key(&self) -> usize {
         match self.interpolation {
             Interpolation::CubicSpline => 3 * self.property.width(),
             _ => self.property.width(),

@@ -141,7 +141,7 @@ impl LightEdit {
         }
         match self.kind {
             LightKind::Spot { inner_cone_radians: inner, outer_cone_radians: outer, .. }
-                if !(0.0 <= inner && inner < outer && outer <= std::f32::consts::FRAC_PI_2) =>
+                if !(0.0 <= inner && inner <= outer && outer <= std::f32::consts::FRAC_PI_2) =>
             {
                 let [inner, outer] = [inner, outer].map(f32::to_degrees);
                 Err(format!("the cone of {name} goes from {inner}° to {outer}°; it must grow from 0° to at most 90°"))

@@ -91,6 +91,7 @@ mod random;
 mod rays;
 mod real_scenes;
 mod references;
+mod repairs;
 mod residency;
 mod sampling;
 mod scan;

@@ -93,7 +93,7 @@ fn sparse_values_replace_dense_ones() {
     assert!(document.refusal().contains("sparse index 2, past its end"));
 }
 
-fn png(color: [u8; 4]) -> String {
+pub fn png(color: [u8; 4]) -> String {
     let mut bytes = std::io::Cursor::new(Vec::new());
     let image = image::RgbaImage::from_pixel(2, 2, image::Rgba(color));
     image.write_to(&mut bytes, image::ImageFormat::Png).expect("written");

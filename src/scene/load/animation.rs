@@ -1,4 +1,4 @@
-//! Clips: channels with strictly increasing key times and as many values as those call for.
+//! Clips: channels with key times that do not decrease and as many values as those call for.
 
 use std::collections::{BTreeSet, HashSet};
 
@@ -9,17 +9,15 @@ use gltf::json::{
 };
 
 use super::{
-    error::{About, Defect},
+    error::Defect,
     file_object::{FileObject, label},
-    nodes::unit_quaternion,
+    keys::{self, KeyRepairs},
     source::Source,
 };
 use crate::scene::{Channel, Clip, Interpolation, LocalTransform, Node, Property, Warning};
 
-/// Quaternions of normalised bytes are this far from unit length.
-const UNIT_TOLERANCE: f64 = 0.01;
-
-/// `rank` leads from the file's node numbers to those of `nodes`.
+/// `rank` leads from the file's node numbers to those of `nodes`. Channels that cannot be read are left out with a
+/// warning.
 pub(super) fn load(
     source: &Source,
     index: usize,
@@ -37,9 +35,7 @@ pub(super) fn load(
         let Some(&node) = rank.get(target.node.value()) else {
             return Err(Defect::new(name, "animates a node that does not exist"));
         };
-        let object = |what: &str| {
-            name.member(format!("{what} of {}", label("node", target.node.value(), Some(&nodes[node].name))))
-        };
+        let node_label = label("node", target.node.value(), Some(&nodes[node].name));
         let property = match target.path {
             Checked::Valid(FileProperty::Translation) => Property::Translation,
             Checked::Valid(FileProperty::Rotation) => Property::Rotation,
@@ -49,55 +45,58 @@ pub(super) fn load(
                 continue;
             }
             Checked::Invalid => {
-                let sentence = format!("{}, which glTF does not know; it is left out", object("a property"));
-                let warning = Warning { part: name.part(), ..Warning::new(sentence) }.at(node);
-                warnings.push(warning);
+                let sentence = format!("{name}, a property of {node_label}, which glTF does not know; it is left out");
+                warnings.push(Warning { part: name.part(), ..Warning::new(sentence) }.at(node));
                 continue;
             }
         };
-        let object = || object(property.name());
-        if let LocalTransform::Matrix(_) = nodes[node].local {
-            warnings.push(object().warning("its node has a matrix, which cannot be animated; it is left out").at(node));
-            continue;
-        }
-        if !taken.insert((node, property)) {
-            return Err(Defect::new(object(), "animates what another channel of the clip animates"));
-        }
-        let sampler = animation.samplers.get(channel.sampler.value());
-        let sampler = sampler.ok_or_else(|| Defect::new(object(), "names a sampler that does not exist"))?;
-        let times = &source.root.accessors[sampler.input.value()];
-        if times.buffer_view.is_none() && times.sparse.is_none() && times.count.0 > 1 {
-            warnings.push(object().warning("its key times have no data; it is left out").at(node));
-            continue;
-        }
-        let mut channel = read_channel(source, sampler, node, property).about(object)?;
-        if property == Property::Rotation {
-            let off = make_unit(&mut channel).about(object)?;
-            if off > UNIT_TOLERANCE {
-                warnings.push(
-                    object()
-                        .warning(format!(
-                            "its rotations are not unit quaternions (off by {off:.3}); they are normalised"
-                        ))
-                        .at(node),
-                );
+        let object = name.member(format_args!("{} of {node_label}", property.name()));
+        let loaded = match taken.insert((node, property)) {
+            true => load_channel(source, animation, channel, (node, property), nodes),
+            false => Err("it animates what another channel of the clip animates".to_owned()),
+        };
+        match loaded {
+            Ok((channel, repairs)) => {
+                warnings.extend(repairs.told().map(|told| object.warning(told).at(node)));
+                channels.push(channel);
             }
+            Err(cause) => warnings.push(object.warning(format!("{cause}; it is left out")).at(node)),
         }
-        channel.check().about(object)?;
-        channels.push(channel);
     }
     for node in morphed {
         let moved = &nodes[node].name;
-        warnings.push(
-            name.warning(format!("the morph weights of \"{moved}\" move, which is not shown; its resting shape moves"))
-                .at(node),
-        );
+        let cause = format!("the morph weights of \"{moved}\" move, which is not shown; its resting shape moves");
+        warnings.push(name.warning(cause).at(node));
     }
     Ok(Clip {
         name: animation.name.clone().unwrap_or_else(|| format!("animation {index}")),
         duration_secs: channels.iter().filter_map(|channel| channel.times_secs.last()).copied().fold(0.0, f64::max),
         channels,
     })
+}
+
+/// Errors are causes.
+fn load_channel(
+    source: &Source,
+    animation: &json::Animation,
+    channel: &json::animation::Channel,
+    (node, property): (usize, Property),
+    nodes: &[Node],
+) -> Result<(Channel, KeyRepairs), String> {
+    if let LocalTransform::Matrix(_) = nodes[node].local {
+        return Err("its node has a matrix, which cannot be animated".to_owned());
+    }
+    let sampler = animation.samplers.get(channel.sampler.value()).ok_or("it names a sampler that does not exist")?;
+    let times = &source.root.accessors[sampler.input.value()];
+    if times.buffer_view.is_none() && times.sparse.is_none() && times.count.0 > 1 {
+        return Err("its key times have no data".to_owned());
+    }
+    let it = |cause: String| format!("it {cause}");
+    let mut channel = read_channel(source, sampler, node, property).map_err(it)?;
+    channel.check_count().map_err(it)?;
+    let repairs = keys::repair(&mut channel);
+    channel.check().map_err(it)?;
+    Ok((channel, repairs))
 }
 
 fn read_channel(
@@ -123,25 +122,4 @@ fn read_channel(
         _ => output.floats::<3>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
     };
     Ok(Channel { node, property, interpolation, times_secs, values })
-}
-
-/// Normalises the rotations at the keys, where nothing normalises after interpolation; returns by
-/// how much the length of one is off.
-fn make_unit(channel: &mut Channel) -> Result<f64, String> {
-    let mut off: f64 = 0.0;
-    let is_spline = channel.interpolation == Interpolation::CubicSpline;
-    for (row, rotation) in channel.values.chunks_exact_mut(4).enumerate() {
-        // Of the three rows of a spline's key, the first and last are tangents.
-        if is_spline && row % 3 != 1 {
-            continue;
-        }
-        let value = [rotation[0], rotation[1], rotation[2], rotation[3]];
-        off = off.max((value.iter().map(|lane| lane * lane).sum::<f64>().sqrt() - 1.0).abs());
-        if !is_spline {
-            let unit = unit_quaternion(value)
-                .ok_or_else(|| format!("has a rotation at key {row} that is zero or not finite"))?;
-            rotation.copy_from_slice(&unit.to_array());
-        }
-    }
-    Ok(off)
 }

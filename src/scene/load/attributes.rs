@@ -63,6 +63,10 @@ impl<'a> Attributes<'a> {
         self.primitive.member(semantic.to_string())
     }
 
+    pub fn is_morphed(&self) -> bool {
+        !self.morphs.is_empty()
+    }
+
     pub fn has(&self, semantic: Semantic) -> bool {
         self.declared.attributes.contains_key(&Checked::Valid(semantic))
     }
@@ -92,19 +96,45 @@ impl<'a> Attributes<'a> {
 
     /// The attribute at every vertex, all finite.
     pub fn floats<const N: usize>(&self, semantic: &Semantic) -> Result<Vec<[f32; N]>, Defect> {
-        let elements = self.required(semantic)?;
-        self.source.budget.spend_on(self.vertices.len(), size_of::<[f32; N]>()).about(|| self.object(semantic))?;
-        let mut rows: Vec<[f32; N]> = elements.floats(self.picked()).about(|| self.object(semantic))?;
-        for (target, weight) in &self.morphs {
-            self.add_target(semantic, target, *weight, &mut rows)?;
-        }
-        match rows.iter().position(|row| row.iter().any(|value| !value.is_finite())) {
+        let rows = self.rows(semantic)?;
+        match rows.iter().position(|row| !is_finite(row)) {
             Some(bad) => {
                 let cause = format!("is not finite at vertex {}: {:?}", self.vertices[bad], rows[bad]);
                 Err(Defect::new(self.object(semantic), cause))
             }
             None => Ok(rows),
         }
+    }
+
+    /// The attribute at every vertex, with `instead` where it is not finite, which a warning counts.
+    pub fn repaired<const N: usize>(
+        &self,
+        semantic: &Semantic,
+        instead: [f32; N],
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Vec<[f32; N]>, Defect> {
+        let mut rows = self.rows(semantic)?;
+        let mut count = 0;
+        for row in rows.iter_mut().filter(|row| !is_finite(&**row)) {
+            *row = instead;
+            count += 1;
+        }
+        if count > 0 {
+            let count = counted(count, "vertex", "vertices");
+            warnings.push(self.object(semantic).warning(format!("not finite at {count}; {instead:?} stands in")));
+        }
+        Ok(rows)
+    }
+
+    /// The attribute at every vertex as it is in the file, morphed.
+    fn rows<const N: usize>(&self, semantic: &Semantic) -> Result<Vec<[f32; N]>, Defect> {
+        let elements = self.required(semantic)?;
+        self.source.budget.spend_on(self.vertices.len(), size_of::<[f32; N]>()).about(|| self.object(semantic))?;
+        let mut rows: Vec<[f32; N]> = elements.floats(self.picked()).about(|| self.object(semantic))?;
+        for (target, weight) in &self.morphs {
+            self.add_target(semantic, target, *weight, &mut rows)?;
+        }
+        Ok(rows)
     }
 
     /// Displacements have three components; the handedness of a tangent is not displaced.
@@ -133,24 +163,27 @@ impl<'a> Attributes<'a> {
         self.required(semantic)?.unsigned(self.picked()).about(|| self.object(semantic))
     }
 
-    pub fn tex_coords(&self, set: u32) -> Result<Vec<Vec2>, Defect> {
+    pub fn tex_coords(&self, set: u32, warnings: &mut Vec<Warning>) -> Result<Vec<Vec2>, Defect> {
         let semantic = Semantic::TexCoords(set);
         match self.elements(&semantic)? {
             Some(elements) if elements.is_u32() => Err(Defect::new(
                 self.object(&semantic),
                 "holds 32-bit integers, and floats or normalised integers are needed",
             )),
-            Some(_) => Ok(self.floats(&semantic)?.into_iter().map(Vec2::from_array).collect()),
+            Some(_) => Ok(self.repaired(&semantic, [0.0; 2], warnings)?.into_iter().map(Vec2::from_array).collect()),
             None => Ok(Vec::new()),
         }
     }
 
-    pub fn colors(&self) -> Result<Vec<Vec4>, Defect> {
+    pub fn colors(&self, warnings: &mut Vec<Warning>) -> Result<Vec<Vec4>, Defect> {
         let semantic = Semantic::Colors(0);
         match self.elements(&semantic)?.map(|elements| elements.lanes) {
             None => Ok(Vec::new()),
-            Some(3) => Ok(self.floats(&semantic)?.into_iter().map(|rgb| Vec3::from_array(rgb).extend(1.0)).collect()),
-            Some(_) => Ok(self.floats(&semantic)?.into_iter().map(Vec4::from_array).collect()),
+            Some(3) => {
+                let colors = self.repaired(&semantic, [1.0; 3], warnings)?;
+                Ok(colors.into_iter().map(|rgb| Vec3::from_array(rgb).extend(1.0)).collect())
+            }
+            Some(_) => Ok(self.repaired(&semantic, [1.0; 4], warnings)?.into_iter().map(Vec4::from_array).collect()),
         }
     }
 
@@ -183,6 +216,10 @@ impl<'a> Attributes<'a> {
     pub fn joint_sets(&self) -> u32 {
         (0..).take_while(|&set| self.has(Semantic::Joints(set)) || self.has(Semantic::Weights(set))).count() as u32
     }
+}
+
+fn is_finite(row: &[f32]) -> bool {
+    row.iter().all(|value| value.is_finite())
 }
 
 fn displacements(target: &MorphTarget, semantic: &Semantic) -> Option<Index<Accessor>> {

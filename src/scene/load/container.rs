@@ -57,6 +57,12 @@ impl<'a> Container<'a> {
             container.take(number, kind, data)?;
             rest = after;
         }
+        if let Some(end) = container.json.iter().rposition(|byte| *byte != 0)
+            && end + 1 < container.json.len()
+        {
+            container.json = &container.json[..=end];
+            container.warnings.push(Warning::new("GLB chunk 0: it is padded with zeros instead of blanks"));
+        }
         if container.json.iter().all(u8::is_ascii_whitespace) {
             return Err(Defect::new("GLB chunk 0", "is an empty JSON chunk"));
         }

@@ -5,7 +5,7 @@ use gltf::json::{Index, Node as FileNode, accessor::Accessor};
 use serde_json::Value;
 
 use super::{
-    error::{About, Defect},
+    error::{About, Defect, counted},
     file_object::FileObject,
     nodes::unit_quaternion,
     source::Source,
@@ -30,7 +30,12 @@ pub(super) fn expand(
             continue;
         }
         let Some(mesh) = nodes[place].mesh.take() else { continue };
-        let transforms = read(source, attributes).about(object)?;
+        let (transforms, unturned) = read(source, attributes).about(object)?;
+        if unturned > 0 {
+            let count = counted(unturned, "instance", "instances");
+            warnings
+                .push(object().warning(format!("{count} with a rotation that is zero or not finite are not turned")));
+        }
         source.budget.spend_on(transforms.len(), size_of::<Node>()).about(object)?;
         let name = nodes[place].name.clone();
         nodes.extend(transforms.into_iter().enumerate().map(|(number, trs)| Node {
@@ -50,7 +55,8 @@ fn declared(node: &FileNode) -> Option<&Value> {
     node.extensions.as_ref()?.others.get(EXTENSION)?.get("attributes")
 }
 
-fn read(source: &Source, attributes: &Value) -> Result<Vec<Trs>, String> {
+/// The transforms, and how many of them lack a rotation that is one.
+fn read(source: &Source, attributes: &Value) -> Result<(Vec<Trs>, usize), String> {
     let translations = rows::<3>(source, attributes, "TRANSLATION")?;
     let rotations = rows::<4>(source, attributes, "ROTATION")?;
     let scales = rows::<3>(source, attributes, "SCALE")?;
@@ -62,11 +68,15 @@ fn read(source: &Source, attributes: &Value) -> Result<Vec<Trs>, String> {
     let vector = |rows: &Option<Vec<[f32; 3]>>, instance: usize, default: DVec3| {
         rows.as_ref().map_or(default, |rows| DVec3::from_array(rows[instance].map(f64::from)))
     };
-    (0..count)
+    let mut unturned = 0;
+    let transforms: Result<Vec<Trs>, String> = (0..count)
         .map(|instance| {
             let rotation = match &rotations {
-                Some(rows) => unit_quaternion(rows[instance].map(f64::from))
-                    .ok_or_else(|| format!("has a rotation at instance {instance} that is zero or not finite"))?,
+                // What is no rotation turns nothing.
+                Some(rows) => unit_quaternion(rows[instance].map(f64::from)).unwrap_or_else(|| {
+                    unturned += 1;
+                    DQuat::IDENTITY
+                }),
                 None => DQuat::IDENTITY,
             };
             let translation = vector(&translations, instance, DVec3::ZERO);
@@ -76,7 +86,8 @@ fn read(source: &Source, attributes: &Value) -> Result<Vec<Trs>, String> {
                 false => Err(format!("has a transform at instance {instance} that is not finite")),
             }
         })
-        .collect()
+        .collect();
+    Ok((transforms?, unturned))
 }
 
 fn rows<const N: usize>(source: &Source, attributes: &Value, name: &str) -> Result<Option<Vec<[f32; N]>>, String> {

@@ -1,6 +1,6 @@
 //! KHR_lights_punctual, in its units.
 
-use std::f32::consts::FRAC_PI_4;
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use gltf::json::{
     Root,
@@ -47,13 +47,36 @@ fn kind(light: &FileLight, object: &FileObject, warnings: &mut Vec<Warning>) -> 
             if spot.is_none() {
                 warnings.push(object.warning("it is a spot light without a cone; it gets glTF's default"));
             }
-            match 0.0 <= inner && inner < outer && outer <= std::f32::consts::FRAC_PI_2 {
-                true => Ok(LightKind::Spot { range, inner_cone_radians: inner, outer_cone_radians: outer }),
-                false => {
-                    Err(format!("has a cone from {inner} to {outer} radians, which must grow from 0 to at most π/2"))
-                }
+            let (inner_cone_radians, outer_cone_radians) = cone([inner, outer]);
+            if (inner_cone_radians, outer_cone_radians) != (inner, outer) {
+                warnings.push(object.warning(format!(
+                    "it has a cone from {inner} to {outer} radians, which must grow from 0 to at most π/2; it is taken \
+                     from {inner_cone_radians} to {outer_cone_radians}"
+                )));
             }
+            Ok(LightKind::Spot { range, inner_cone_radians, outer_cone_radians })
         }
         (Checked::Invalid, _) => Err("is of a type that glTF does not know".to_owned()),
+    }
+}
+
+/// The nearest cone that makes sense; where the inner angle is the outer one, its edge is hard.
+fn cone(angles: [f32; 2]) -> (f32, f32) {
+    let outer = if angles[1] > 0.0 { angles[1].min(FRAC_PI_2) } else { FRAC_PI_4 };
+    let inner = if angles[0] > 0.0 { angles[0].min(outer) } else { 0.0 };
+    (inner, outer)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cones_keep_what_makes_sense_of_them() {
+        assert_eq!(cone([0.1, 0.2]), (0.1, 0.2));
+        assert_eq!(cone([0.3, 0.3]), (0.3, 0.3), "a hard edge");
+        assert_eq!(cone([0.9, FRAC_PI_4]), (FRAC_PI_4, FRAC_PI_4));
+        assert_eq!(cone([-1.0, 3.0]), (0.0, FRAC_PI_2));
+        assert_eq!(cone([f32::NAN, f32::NAN]), (0.0, FRAC_PI_4));
     }
 }

@@ -2,11 +2,18 @@
 
 use gltf::json::{
     self,
-    material::{AlphaMode as FileAlphaMode, EmissiveFactor},
+    extensions::texture::TextureTransform,
+    material::{AlphaMode as FileAlphaMode, EmissiveFactor, NormalTexture},
     validation::Checked,
 };
 
-use super::{error::Defect, file_object::FileObject, source::Source, spec_gloss, texture::Textures};
+use super::{
+    error::Defect,
+    file_object::FileObject,
+    source::Source,
+    spec_gloss,
+    texture::{Textures, overridden},
+};
 use crate::scene::{AlphaMode, Material, Warning};
 
 pub(super) fn load(
@@ -73,14 +80,24 @@ fn alpha_mode(material: &json::Material, object: &FileObject, warnings: &mut Vec
     }
 }
 
+/// Which `TEXCOORD_n` a normal texture reads.
+pub(super) fn normal_tex_coord_set(normal: &NormalTexture) -> u32 {
+    let transform = declared_transform(normal).and_then(Result::ok);
+    overridden(normal.tex_coord, transform.as_ref())
+}
+
 /// The typed document keeps this one extension of a normal texture untyped.
+fn declared_transform(normal: &NormalTexture) -> Option<serde_json::Result<TextureTransform>> {
+    let declared = normal.extensions.as_ref()?.others.get("KHR_texture_transform")?;
+    Some(serde::Deserialize::deserialize(declared))
+}
+
 fn normal_transform(
-    normal: &json::material::NormalTexture,
+    normal: &NormalTexture,
     object: &FileObject,
     warnings: &mut Vec<Warning>,
-) -> Option<json::extensions::texture::TextureTransform> {
-    let declared = normal.extensions.as_ref()?.others.get("KHR_texture_transform")?;
-    serde::Deserialize::deserialize(declared)
+) -> Option<TextureTransform> {
+    declared_transform(normal)?
         .map_err(|error| {
             warnings.push(object.warning(format!("the transform of its normal texture is ignored: {error}")))
         })

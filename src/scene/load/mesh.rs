@@ -68,11 +68,15 @@ fn load_primitive(
     let positions: Vec<Vec3> = attributes.floats(&Semantic::Positions)?.into_iter().map(Vec3::from_array).collect();
     let normals = match flat {
         true => flat_normals(&positions),
-        false => attributes.floats(&Semantic::Normals)?.into_iter().map(Vec3::from_array).collect(),
+        false => normals(&attributes, &positions, &triangles, warnings)?,
     };
     let tangents = match flat || !attributes.has(Semantic::Tangents) {
         true => Vec::new(), // glTF: tangents without normals are to be ignored
-        false => attributes.floats(&Semantic::Tangents)?.into_iter().map(Vec4::from_array).collect(),
+        // One that is zero is as none: the triangle's own stands in.
+        false => {
+            let tangents = attributes.repaired(&Semantic::Tangents, [0.0, 0.0, 0.0, 1.0], warnings)?;
+            tangents.into_iter().map(Vec4::from_array).collect()
+        }
     };
     let influences = Influences::of(&attributes, warnings)?;
     let (joints, weights) = influences.map(|i| (i.joints, i.weights)).unwrap_or_default();
@@ -80,8 +84,8 @@ fn load_primitive(
         material: primitive.material.map(|material| material.value()),
         normals,
         tangents,
-        tex_coords: [attributes.tex_coords(0)?, attributes.tex_coords(1)?],
-        colors: attributes.colors()?,
+        tex_coords: [attributes.tex_coords(0, warnings)?, attributes.tex_coords(1, warnings)?],
+        colors: attributes.colors(warnings)?,
         joints,
         weights,
         positions,
@@ -125,6 +129,40 @@ fn compact(triangles: &mut [[u32; 3]]) -> Vec<u32> {
         *vertex = vertices.partition_point(|used| used < vertex) as u32;
     }
     vertices
+}
+
+/// Lengths that differ more from 1 than those of normalised bytes.
+const UNIT_TOLERANCE: f32 = 0.01;
+
+/// The file's normals; those that are not finite or zero become the mean of the triangles around them, others are
+/// normalised.
+fn normals(
+    attributes: &Attributes,
+    positions: &[Vec3],
+    triangles: &[[u32; 3]],
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Vec3>, Defect> {
+    let read = attributes.repaired(&Semantic::Normals, [0.0; 3], &mut Vec::new())?;
+    let mut normals: Vec<Vec3> = read.into_iter().map(Vec3::from_array).collect();
+    let is_off = |normal: &Vec3| (normal.length() - 1.0).abs() > UNIT_TOLERANCE;
+    let off: Vec<usize> = (0..normals.len()).filter(|vertex| is_off(&normals[*vertex])).collect();
+    // Morphed ones are no unit vectors, and need not be.
+    if off.is_empty() || attributes.is_morphed() {
+        return Ok(normals);
+    }
+    let mut around = vec![Vec3::ZERO; normals.len()];
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
+        let doubled_area = (b - a).cross(c - a);
+        triangle.iter().for_each(|&vertex| around[vertex as usize] += doubled_area);
+    }
+    for &vertex in &off {
+        normals[vertex] = normals[vertex].try_normalize().unwrap_or_else(|| around[vertex].normalize_or_zero());
+    }
+    let count = counted(off.len(), "vertex", "vertices");
+    let cause = format!("not unit vectors at {count}; they are normalised, or those of the triangles around");
+    warnings.push(attributes.object(&Semantic::Normals).warning(cause));
+    Ok(normals)
 }
 
 /// Unit face normals of unshared triangles; zero where a triangle has no area.

@@ -23,6 +23,7 @@ mod file_object;
 mod image;
 mod instances;
 mod json;
+mod keys;
 mod lights;
 mod material;
 mod mesh;

@@ -122,8 +122,7 @@ fn local_transform(
             let [x, y, z, w] = node.rotation.unwrap_or_default().0.map(f64::from);
             LocalTransform::Trs(Trs {
                 translation: DVec3::from_array(node.translation.unwrap_or([0.0; 3]).map(f64::from)),
-                rotation: unit_quaternion([x, y, z, w])
-                    .ok_or_else(|| Defect::new(object(), "has a rotation that is zero or not finite"))?,
+                rotation: rotation([x, y, z, w], object, warnings),
                 scale: DVec3::from_array(node.scale.unwrap_or([1.0; 3]).map(f64::from)),
             })
         }
@@ -133,6 +132,23 @@ fn local_transform(
     } else {
         Err(Defect::new(object(), "has a transform that is not finite"))
     }
+}
+
+/// Quaternions of normalised bytes are this far from unit length.
+pub(super) const UNIT_TOLERANCE: f64 = 0.01;
+
+/// A node's own rotation; one that is none turns nothing.
+fn rotation(xyzw: [f64; 4], object: &dyn Fn() -> FileObject, warnings: &mut Vec<Warning>) -> DQuat {
+    let length = DQuat::from_array(xyzw).length();
+    let unit = unit_quaternion(xyzw);
+    if unit.is_none() {
+        warnings.push(object().warning("its rotation is zero or not finite; it is not turned"));
+    } else if (length - 1.0).abs() > UNIT_TOLERANCE {
+        warnings.push(
+            object().warning(format!("its rotation is no unit quaternion (length {length:.3}); it is normalised")),
+        );
+    }
+    unit.unwrap_or(DQuat::IDENTITY)
 }
 
 /// Files store 32-bit quaternions; without this their length would leak into the scale.

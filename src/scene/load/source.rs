@@ -57,25 +57,25 @@ impl<'a> Source<'a> {
         warnings: &mut Vec<Warning>,
     ) -> Result<Cow<'a, [u8]>, String> {
         let mut bytes: Cow<'a, [u8]> = match (&buffer.uri, binary) {
-            (Some(uri), _) => Target::of(uri, self.base_dir)
-                .and_then(|target| target.read(self.budget))
-                .map(Cow::Owned)
-                .map_err(|cause| format!("buffer {index} {cause}"))?,
+            (Some(uri), _) => {
+                let found = Target::of(uri, self.base_dir).and_then(|target| target.read(self.budget));
+                let found = found.map_err(|cause| format!("buffer {index} {cause}"))?;
+                let object = FileObject::item("buffer", index, None);
+                warnings.extend(found.repair.map(|repair| object.warning(format!("it {repair}"))));
+                Cow::Owned(found.bytes)
+            }
             (None, Some(binary)) if index == 0 => Cow::Borrowed(binary),
             (None, _) => return Err(format!("buffer {index} has no data")),
         };
         let declared = usize::try_from(buffer.byte_length.0).unwrap_or(usize::MAX);
-        if bytes.len() < declared {
-            return Err(format!("buffer {index} holds {} bytes and declares {declared}", bytes.len()));
-        }
-        // The binary chunk of a GLB is padded to a multiple of 4 bytes.
+        // The binary chunk of a GLB is padded to a multiple of 4 bytes. What lacks bytes is told where it is read.
         let padding = if buffer.uri.is_none() { 3 } else { 0 };
-        if bytes.len() > declared + padding {
+        if bytes.len() < declared || bytes.len() > declared.saturating_add(padding) {
             let cause = format!("it holds {} bytes and declares {declared}", bytes.len());
             warnings.push(FileObject::item("buffer", index, None).warning(cause));
         }
         match &mut bytes {
-            Cow::Borrowed(bytes) => *bytes = &bytes[..declared],
+            Cow::Borrowed(bytes) => *bytes = &bytes[..declared.min(bytes.len())],
             Cow::Owned(bytes) => bytes.truncate(declared),
         }
         Ok(bytes)

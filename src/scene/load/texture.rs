@@ -30,8 +30,11 @@ impl Textures {
         let root = &source.root;
         let images = decode_images(source, progress)?;
         for (index, image) in images.iter().enumerate() {
+            let object = FileObject::item("image", index, root.images[index].name.as_deref());
+            if let Ok(Decoded { repair: Some(repair), .. }) = image {
+                warnings.push(object.warning(format!("it {repair}")));
+            }
             if let Err(cause) = image {
-                let object = FileObject::item("image", index, root.images[index].name.as_deref());
                 let sentence = format!("{object} {cause}; materials go without it");
                 warnings.push(Warning { part: object.part(), ..Warning::new(sentence) });
             }
@@ -44,7 +47,7 @@ impl Textures {
             if place.is_none() {
                 warnings.push(object.warning("it has no image; materials go without it"));
             }
-            let image = images.get(texture.source.value()).and_then(|image| image.as_ref().ok());
+            let image = images.get(texture.source.value()).and_then(|image| Some(&image.as_ref().ok()?.image));
             textures.places.push(image.map(|_| textures.list.len()));
             textures.list.extend(image.zip(place).map(|(image, declared)| {
                 let sampler = texture.sampler.and_then(|sampler| root.samplers.get(sampler.value()));
@@ -104,7 +107,7 @@ fn transform(info: &Info) -> Option<&TextureTransform> {
 }
 
 /// A transform may name another set of coordinates.
-fn overridden(tex_coord: u32, transform: Option<&TextureTransform>) -> u32 {
+pub(super) fn overridden(tex_coord: u32, transform: Option<&TextureTransform>) -> u32 {
     transform.and_then(|transform| transform.tex_coord).unwrap_or(tex_coord)
 }
 
@@ -132,13 +135,19 @@ fn wraps(sampler: Option<&Sampler>, object: &FileObject, warnings: &mut Vec<Warn
     })
 }
 
+/// An image, and what was amiss with the way to it.
+struct Decoded {
+    image: Arc<RgbaImage>,
+    repair: Option<String>,
+}
+
 /// By image of the file, whether a texture shows it or not.
-fn decode_images(source: &Source, progress: &Progress) -> Result<Vec<Result<Arc<RgbaImage>, String>>, Defect> {
+fn decode_images(source: &Source, progress: &Progress) -> Result<Vec<Result<Decoded, String>>, Defect> {
     let images = &source.root.images;
     progress.add_total(images.len() as u64);
-    let decoded: Vec<Result<Result<Arc<RgbaImage>, String>, Defect>> = (images.par_iter())
+    let decoded: Vec<Result<Result<Decoded, String>, Defect>> = (images.par_iter())
         .map(|image| {
-            let decoded = decode(source, image).map(Arc::new);
+            let decoded = decode(source, image);
             progress.advance(1)?;
             Ok(decoded)
         })
@@ -146,10 +155,14 @@ fn decode_images(source: &Source, progress: &Progress) -> Result<Vec<Result<Arc<
     decoded.into_iter().collect()
 }
 
-fn decode(source: &Source, image: &Image) -> Result<RgbaImage, String> {
-    match (&image.uri, image.buffer_view) {
-        (Some(uri), _) => image_file::decode(&Target::of(uri, source.base_dir)?.read(source.budget)?, source.budget),
-        (None, Some(view)) => image_file::decode(source.view_bytes(view)?, source.budget),
-        (None, None) => Err("has no data".to_owned()),
-    }
+fn decode(source: &Source, image: &Image) -> Result<Decoded, String> {
+    let (image, repair) = match (&image.uri, image.buffer_view) {
+        (Some(uri), _) => {
+            let found = Target::of(uri, source.base_dir)?.read(source.budget)?;
+            (image_file::decode(&found.bytes, source.budget)?, found.repair)
+        }
+        (None, Some(view)) => (image_file::decode(source.view_bytes(view)?, source.budget)?, None),
+        (None, None) => return Err("has no data".to_owned()),
+    };
+    Ok(Decoded { image: Arc::new(image), repair })
 }

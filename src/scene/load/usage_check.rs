@@ -15,6 +15,7 @@ use super::{
     accessor_check::{declared_bytes, take},
     file_object::FileObject,
     json::Few,
+    material::normal_tex_coord_set,
     source::Source,
     texture::tex_coord_set,
 };
@@ -178,8 +179,11 @@ impl Check<'_> {
         };
         let pbr = &material.pbr_metallic_roughness;
         let slots = [&pbr.base_color_texture, &pbr.metallic_roughness_texture, &material.emissive_texture];
-        let sets =
-            slots.into_iter().flatten().map(tex_coord_set).chain(material.normal_texture.as_ref().map(|n| n.tex_coord));
+        let sets = slots
+            .into_iter()
+            .flatten()
+            .map(tex_coord_set)
+            .chain(material.normal_texture.as_ref().map(normal_tex_coord_set));
         let missing =
             sets.filter(|&set| !primitive.attributes.contains_key(&Checked::Valid(Semantic::TexCoords(set)))).max();
         if let Some(set) = missing {

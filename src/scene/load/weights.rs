@@ -42,7 +42,7 @@ impl Influences {
         let mut weights = Vec::with_capacity(sets as usize);
         for set in 0..sets {
             joints.push(attributes.unsigned::<4>(&Semantic::Joints(set))?);
-            weights.push(attributes.floats::<4>(&Semantic::Weights(set))?);
+            weights.push(attributes.repaired::<4>(&Semantic::Weights(set), [0.0; 4], warnings)?);
         }
         let mut repairs = Repairs::default();
         let mut influences = Self { joints: Vec::new(), weights: Vec::new() };

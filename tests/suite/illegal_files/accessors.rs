@@ -143,7 +143,7 @@ fn keys() -> Vec<Case> {
         case(
             "ACCESSOR_ANIMATION_INPUT_NON_INCREASING",
             clip("translation", &[1.0, 1.0], "VEC3", &[0.0; 6]),
-            Refused("key times that do not increase: 1 s, then 1 s at key 1"),
+            Opened("1 key at the time of the one before"),
         ),
         case(
             "ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION",
