@@ -98,17 +98,17 @@ impl Common {
     /// The settings file's, or the default ones, with every option given put over them.
     pub fn settings(&self) -> anyhow::Result<Settings> {
         let mut settings = self.settings_file()?.0;
-        self.discretize(&mut settings.discretization)?;
+        self.discretize(&mut settings.method.discretization)?;
         if self.clip.is_some() {
-            settings.motion.clip.clone_from(&self.clip);
+            settings.shot.motion.clip.clone_from(&self.clip);
         }
-        set(&mut settings.motion.turn_degrees, self.turn);
+        set(&mut settings.shot.motion.turn_degrees, self.turn);
         if let (Some(eye), Some(target)) = (self.eye, self.target) {
             let fov_y_degrees = self.fov.unwrap_or(OrbitCamera::default().fov_y_degrees);
-            settings.look.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
+            settings.shot.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
         }
-        self.lighting.apply(&mut settings.lighting);
-        self.cones.apply(&mut settings.cone_tracing);
+        self.lighting.apply(&mut settings.method.lighting);
+        self.cones.apply(&mut settings.method.cone_tracing);
         Ok(settings)
     }
 
@@ -143,8 +143,7 @@ impl Common {
         set(&mut discretization.anchor, self.anchor);
         set(&mut discretization.dense_level, self.dense_level);
         discretization.span = self.span.or(discretization.span);
-        let checked = Settings { discretization: *discretization, ..Settings::default() }.check();
-        checked.map_err(Usage)?;
+        discretization.check().map_err(Usage)?;
         match self.dense_level {
             Some(level) if level != discretization.dense_level() => Err(Usage(format!(
                 "dense level {level} is not in 0 to {}: at a grid of {} the leaves are level {}",
@@ -159,6 +158,6 @@ impl Common {
 
 impl Moment {
     pub fn apply(&self, settings: &mut Settings) {
-        set(&mut settings.motion.time_secs, self.time);
+        set(&mut settings.shot.motion.time_secs, self.time);
     }
 }

@@ -54,7 +54,7 @@ impl Render {
         }
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         for (file, time_secs) in self.pictures(&settings) {
-            settings.motion.time_secs = time_secs;
+            settings.shot.motion.time_secs = time_secs;
             draw(&mut session, &settings, size_px, &file)?;
         }
         Ok(())
@@ -65,7 +65,7 @@ impl Render {
         let disk = self.common.disk_cache();
         let prepared = session::prepare_only(&self.scene, &self.common, disk.as_ref(), settings)?;
         for (file, time_secs) in self.pictures(settings) {
-            settings.motion.time_secs = time_secs;
+            settings.shot.motion.time_secs = time_secs;
             self.reference.draw((&prepared, disk.as_ref()), settings, size_px, &file)?;
         }
         Ok(())
@@ -74,12 +74,12 @@ impl Render {
     fn settings(&self) -> anyhow::Result<Settings> {
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
-        self.look.apply(&mut settings.look);
+        self.look.apply(&mut settings.method.look);
         settings.check().map_err(Usage)?;
         if self.reference.reference {
             self.reference.choose_view(&mut settings, self.look.names_view())?;
         }
-        if output::is_exr(&self.output) && settings.look.view != View::Surfaces {
+        if output::is_exr(&self.output) && settings.method.look.view != View::Surfaces {
             let cause = "an .exr file holds linear light, which only views of surfaces give, such as --view final";
             return Err(Usage(cause.to_owned()).into());
         }
@@ -99,13 +99,13 @@ impl Render {
             (Some(Frames { first, last }), Some(fps)) => {
                 (first..=last).map(|frame| (numbered(&self.output, frame), f64::from(frame) / fps)).collect()
             }
-            _ => vec![(self.output.clone(), settings.motion.time_secs)],
+            _ => vec![(self.output.clone(), settings.shot.motion.time_secs)],
         }
     }
 }
 
 fn draw(session: &mut Session, settings: &Settings, size_px: [u32; 2], file: &Path) -> anyhow::Result<()> {
-    if settings.look.view == View::Ghost {
+    if settings.method.look.view == View::Ghost {
         session.take_exact(settings)?;
     }
     session.run(settings, size_px)?;

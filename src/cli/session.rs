@@ -73,9 +73,9 @@ impl Session {
     /// Voxelizes the posed mesh exactly: the truth for ghost and accuracy.
     pub fn take_exact(&mut self, settings: &Settings) -> anyhow::Result<()> {
         let prepared = &self.prepared;
-        let hidden = prepared.hidden(&settings.visibility)?;
+        let hidden = prepared.hidden(&settings.shot.visibility)?;
         let exact = output::with_progress("voxelizing the posed mesh", |progress| {
-            prepared.exact(&settings.motion, &hidden, progress)
+            prepared.exact(&settings.shot.motion, &hidden, progress)
         })?;
         output::warnings(&exact.warnings);
         self.engine.offer_exact(Arc::new(exact));
@@ -98,9 +98,9 @@ pub fn prepare_only(
 ) -> anyhow::Result<Arc<Prepared>> {
     let scene = open_scene(scene, &common.open_options())?;
     let names = common.node_names();
-    output::warnings(&names.apply(&scene, &mut settings.visibility)?);
-    output::warnings(&names.change_lights(&scene, &mut settings.lighting)?);
-    settings.visibility.shown_nodes(&scene)?;
+    output::warnings(&names.apply(&scene, &mut settings.shot.visibility)?);
+    output::warnings(&names.change_lights(&scene, &mut settings.method.lighting)?);
+    settings.shot.visibility.shown_nodes(&scene)?;
     let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;
     output::warnings(&prepared.warnings);
     if disk.is_some() {
@@ -127,16 +127,17 @@ fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
 }
 
 fn voxelize(scene: Arc<Scene>, settings: &Settings, stores: Stores) -> anyhow::Result<Arc<Prepared>> {
-    let prepared =
-        output::with_progress("voxelizing", |progress| prepare_with(scene, &settings.discretization, stores, progress));
+    let prepared = output::with_progress("voxelizing", |progress| {
+        prepare_with(scene, &settings.method.discretization, stores, progress)
+    });
     Ok(Arc::new(prepared?))
 }
 
 /// A clip holds its last pose after its end: said, because it looks like a stopped animation.
 fn warn_of_time(prepared: &Prepared, settings: &Settings) -> anyhow::Result<()> {
-    let time_secs = settings.motion.time_secs;
+    let time_secs = settings.shot.motion.time_secs;
     let scene = &prepared.scene;
-    match prepared.clip_index(&settings.motion)?.map(|clip| &scene.clips[clip]) {
+    match prepared.clip_index(&settings.shot.motion)?.map(|clip| &scene.clips[clip]) {
         Some(clip) if time_secs > clip.duration_secs => output::message(&format!(
             "warning: clip \"{}\" ends at {} s; its last pose is shown",
             clip.name, clip.duration_secs

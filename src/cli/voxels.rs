@@ -43,7 +43,7 @@ impl Voxels {
         let write = self.writer()?;
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
-        settings.look.view = View::Voxels;
+        settings.method.look.view = View::Voxels;
         settings.check().map_err(Usage)?;
         let (voxels, grid) = match self.source {
             Source::Moved => {
@@ -59,9 +59,9 @@ impl Voxels {
 
     fn exact(&self, settings: &mut Settings) -> anyhow::Result<(WorldVoxels, Grid)> {
         let prepared = prepare_only(&self.scene, &self.common, self.common.disk_cache().as_ref(), settings)?;
-        let hidden = prepared.hidden(&settings.visibility)?;
+        let hidden = prepared.hidden(&settings.shot.visibility)?;
         let surface = output::with_progress("voxelizing the posed mesh", |progress| {
-            prepared.exact_voxels(&settings.motion, &hidden, progress)
+            prepared.exact_voxels(&settings.shot.motion, &hidden, progress)
         })?;
         output::warnings(&surface.warnings);
         Ok((full_cells(&surface.voxels), prepared.grid))

@@ -11,14 +11,14 @@ const MAX_SHADOW_TEXELS: u64 = 1 << 26;
 
 /// One layout a light, all together within [`MAX_SHADOW_TEXELS`].
 pub fn layouts(prepared: &Prepared, lights: &[PosedLight], settings: &Settings) -> Vec<ShadowParams> {
-    let bounds = prepared.bounds.map(|bounds| turned(bounds, &settings.motion));
+    let bounds = prepared.bounds.map(|bounds| turned(bounds, &settings.shot.motion));
     let sized = |size_px: u32| -> Vec<ShadowParams> {
         lights.iter().map(|light| ShadowParams::new(light, &prepared.grid, bounds, size_px)).collect()
     };
     let texels = |params: &[ShadowParams]| -> u64 {
         params.iter().map(|map| u64::from(map.count) * u64::from(map.size_px).pow(2)).sum()
     };
-    let mut size_px = settings.lighting.shadow_map_px;
+    let mut size_px = settings.method.lighting.shadow_map_px;
     let mut params = sized(size_px);
     while size_px > 1 && texels(&params) > MAX_SHADOW_TEXELS {
         size_px /= 2;

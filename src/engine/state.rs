@@ -181,7 +181,7 @@ impl Engine {
 
     /// The moment that the picture on screen shows.
     pub fn moment_on_screen(&self) -> Option<&MotionSettings> {
-        self.on_screen.as_ref().map(|on_screen| &on_screen.request.settings().motion)
+        self.on_screen.as_ref().map(|on_screen| &on_screen.request.settings().shot.motion)
     }
 
     /// The settings that the picture on screen was made with.

@@ -70,10 +70,10 @@ mod tests {
 
     fn settings() -> Settings {
         let mut settings = Settings::default();
-        settings.look.view = View::Ghost;
-        settings.look.color = ColorBy::Occupancy;
-        settings.motion.clip = Some("Läufer".to_owned());
-        settings.motion.time_secs = 0.1;
+        settings.method.look.view = View::Ghost;
+        settings.method.look.color = ColorBy::Occupancy;
+        settings.shot.motion.clip = Some("Läufer".to_owned());
+        settings.shot.motion.time_secs = 0.1;
         settings
     }
 
@@ -94,13 +94,13 @@ mod tests {
         assert_eq!(size_px, Some([96, 54]));
         assert_eq!(read_settings(&saved.join("format-1.json")).unwrap(), (settings.clone(), None));
         let mut expected = Settings::default();
-        (expected.discretization.grid, expected.discretization.dense_level) = (64, 3);
-        expected.discretization.filter = Filter::Nearest;
-        (expected.motion.time_secs, expected.motion.turn_degrees) = (1.25, [0.0, 20.0, 0.0]);
-        (expected.look.color, expected.look.exposure_stops) = (ColorBy::Radiance, Some(-1.0));
+        (expected.method.discretization.grid, expected.method.discretization.dense_level) = (64, 3);
+        expected.method.discretization.filter = Filter::Nearest;
+        (expected.shot.motion.time_secs, expected.shot.motion.turn_degrees) = (1.25, [0.0, 20.0, 0.0]);
+        (expected.method.look.color, expected.method.look.exposure_stops) = (ColorBy::Radiance, Some(-1.0));
         let (eye, target) = (DVec3::new(6.0, 4.0, 9.0), DVec3::new(0.0, 1.0, 0.0));
-        expected.look.camera = Some(OrbitCamera { eye, target, fov_y_degrees: 45.0 });
-        let lighting = &mut expected.lighting;
+        expected.shot.camera = Some(OrbitCamera { eye, target, fov_y_degrees: 45.0 });
+        let lighting = &mut expected.method.lighting;
         lighting.sun.shines = SunShines::Never;
         (lighting.sky_nits, lighting.shadows) = ([0.5, 0.7, 1.0], Shadows::March);
         let light = LightEdit { intensity: 80.0, ..LightEdit::new(LightKind::POINT) };

@@ -44,7 +44,8 @@ impl Discretization {
         self.dense_level.min(self.depth() - 1)
     }
 
-    pub(super) fn check(&self) -> Result<(), String> {
+    /// Are all values in range? If not, the sentence names value and range.
+    pub fn check(&self) -> Result<(), String> {
         if !Self::GRIDS.contains(&self.grid) {
             return Err(format!("a grid of {} cells is not one of {:?}", self.grid, Self::GRIDS));
         }

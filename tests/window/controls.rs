@@ -51,7 +51,7 @@ fn levels_colours_and_grids_change_the_picture() {
     }
     window.choose("Grid", "128³ cells");
     assert_changed(&before, &window.view(), "another grid");
-    assert_eq!(window.app().settings().discretization.grid, 128);
+    assert_eq!(window.app().settings().method.discretization.grid, 128);
 }
 
 #[test]
@@ -67,15 +67,15 @@ fn the_timeline_moves_the_scene_and_scrubbing_returns_to_the_same_picture() {
 
     assert_eq!(difference(&stepped, &window.view()), 0, "scrubbed to the time stepped to");
     window.choose("Clip", "Rest pose");
-    assert_eq!(window.app().settings().motion.clip.as_deref(), Some(""));
+    assert_eq!(window.app().settings().shot.motion.clip.as_deref(), Some(""));
 
     window.choose("Clip", "walk (10.00 s)");
     window.0.get_by_label("Play").click();
     window.0.run_steps(8);
     window.0.get_by_label("Pause").click();
     window.settle();
-    assert!(window.app().settings().motion.time_secs > 0.0);
+    assert!(window.app().settings().shot.motion.time_secs > 0.0);
     window.press(Modifiers::NONE, Key::ArrowLeft);
-    let thirtieths = window.app().settings().motion.time_secs * 30.0;
+    let thirtieths = window.app().settings().shot.motion.time_secs * 30.0;
     assert!((thirtieths - thirtieths.round()).abs() < 1e-9, "a step lands on a thirtieth");
 }

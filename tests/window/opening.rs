@@ -51,7 +51,7 @@ fn cancelling_a_voxelization_keeps_the_voxels_that_are_there() {
     window.0.get_by_label("1024³ cells").click();
     window.0.step();
     window.cancel_at_once();
-    assert_eq!(window.app().settings().discretization.grid, 64);
+    assert_eq!(window.app().settings().method.discretization.grid, 64);
     assert_eq!(difference(&before, &window.view()), 0);
     assert_eq!(window.log_count("Cancelled."), 1);
 }

@@ -75,7 +75,7 @@ impl Made for Masks {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let (gpu, discretization) = (making.gpu, &making.method.settings().discretization);
+        let (gpu, discretization) = (making.gpu, &making.method.settings().method.discretization);
         let voxels = parts.moving_voxels(making)?;
         let (depth, filter) = (discretization.depth(), discretization.filter);
         let octree = OctreeParams::new(depth, discretization.dense_level());
