@@ -63,6 +63,7 @@ impl App {
         let mut settings = self.settings.clone();
         settings.shot.camera = Some(self.camera(full_px));
         if let Some(ready) = &self.scene {
+            settings.shot.scene = Some(ready.prepared.scene.identity());
             let made = ready.discretization;
             let wanted = &mut settings.method.discretization;
             (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);

@@ -1,6 +1,6 @@
 //! Options that subcommands share, and the settings they make.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use bytesize::ByteSize;
 use clap::Args;
@@ -97,7 +97,7 @@ pub struct Moment {
 impl Common {
     /// The settings file's, or the default ones, with every option given put over them.
     pub fn settings(&self) -> anyhow::Result<Settings> {
-        let mut settings = self.settings_file()?.0;
+        let mut settings = self.settings_file()?;
         self.discretize(&mut settings.method.discretization)?;
         if self.clip.is_some() {
             settings.shot.motion.clip.clone_from(&self.clip);
@@ -130,10 +130,9 @@ impl Common {
         NodeNames { hide: self.hide.clone(), only: self.only.clone(), lights: self.lighting.changes() }
     }
 
-    /// The settings that the file named by `--settings` holds, and its size if it is a picture.
-    pub fn settings_file(&self) -> anyhow::Result<(Settings, Option<[u32; 2]>)> {
-        let read = |file: &Path| export::read_settings(file);
-        Ok(self.settings.as_deref().map(read).transpose()?.unwrap_or_default())
+    /// The settings that the file named by `--settings` holds.
+    fn settings_file(&self) -> anyhow::Result<Settings> {
+        Ok(self.settings.as_deref().map(export::read_settings).transpose()?.unwrap_or_default())
     }
 
     fn discretize(&self, discretization: &mut Discretization) -> Result<(), Usage> {

@@ -14,7 +14,7 @@ use super::reference::ReferenceOptions;
 use super::session::{self, Session};
 use super::values::{self, Frames, Size};
 
-/// Size of a picture where neither option nor settings picture tells.
+/// Size of a picture where neither option nor settings tell.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
 /// Draws a scene into a .png file, which carries its settings, or an .exr file of linear light
@@ -26,7 +26,7 @@ pub struct Render {
     /// on goes before its extension
     #[arg(short, long, value_name = "OUT.png|OUT.exr")]
     output: PathBuf,
-    /// Pixels; 1280x720, or as large as the picture given by --settings
+    /// Pixels; otherwise as --settings says, or 1280x720
     #[arg(long, value_name = "WxH")]
     size: Option<Size>,
     /// Draws frames A to B, both included, of the animation
@@ -48,7 +48,7 @@ pub struct Render {
 impl Render {
     pub fn run(&self) -> anyhow::Result<()> {
         let mut settings = self.settings()?;
-        let size_px = self.size_px()?;
+        let size_px = self.size_px(&settings);
         if self.reference.reference {
             return self.trace(&mut settings, size_px);
         }
@@ -86,11 +86,8 @@ impl Render {
         Ok(settings)
     }
 
-    fn size_px(&self) -> anyhow::Result<[u32; 2]> {
-        match self.size {
-            Some(Size(size_px)) => Ok(size_px),
-            None => Ok(self.common.settings_file()?.1.unwrap_or(SIZE_PX)),
-        }
+    fn size_px(&self, settings: &Settings) -> [u32; 2] {
+        self.size.map(|Size(size_px)| size_px).or(settings.shot.size_px).unwrap_or(SIZE_PX)
     }
 
     /// Files to write, each with its time in seconds.

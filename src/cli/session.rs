@@ -31,8 +31,8 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name. What the
-    /// options hide is added to the settings.
+    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name. Which scene it is, and
+    /// what the options hide, is added to the settings.
     pub fn open(scene: &Path, common: &Common, settings: &mut Settings) -> anyhow::Result<Self> {
         Self::open_with(scene, common, common.disk_cache(), settings)
     }
@@ -88,8 +88,8 @@ impl Session {
     }
 }
 
-/// Opens and voxelizes a scene, and says what there is to know about it. What the options hide, and the
-/// lights they change, are added to the settings.
+/// Opens and voxelizes a scene, and says what there is to know about it. Which it is, what the options hide, and
+/// the lights they change, are added to the settings.
 pub fn prepare_only(
     scene: &Path,
     common: &Common,
@@ -97,6 +97,7 @@ pub fn prepare_only(
     settings: &mut Settings,
 ) -> anyhow::Result<Arc<Prepared>> {
     let scene = open_scene(scene, &common.open_options())?;
+    settings.shot.scene = Some(scene.identity());
     let names = common.node_names();
     output::warnings(&names.apply(&scene, &mut settings.shot.visibility)?);
     output::warnings(&names.change_lights(&scene, &mut settings.method.lighting)?);

@@ -12,8 +12,10 @@ use crate::settings::Settings;
 /// Keyword of the chunk that carries the settings.
 const KEYWORD: &str = "octolume-settings";
 
-/// Writes a picture with 8-bit sRGB colours and the settings that made it.
+/// Writes a picture with 8-bit sRGB colours and the settings that made it, its size among them.
 pub fn write_png(file: &Path, picture: &RgbaImage, settings: &Settings) -> Result<(), ExportError> {
+    let mut settings = settings.clone();
+    settings.shot.size_px = Some(picture.dimensions().into());
     let settings = settings.to_json().map_err(|error| ExportError::new(file, error))?;
     let bytes = encode(picture, settings).map_err(|error| ExportError::new(file, error))?;
     write_file(file, &bytes)
@@ -32,17 +34,18 @@ fn encode(picture: &RgbaImage, settings: String) -> Result<Vec<u8>, png::Encodin
     Ok(bytes)
 }
 
-/// Reads settings from a JSON file or from a picture of [`write_png`], whose size in pixels comes
-/// with them.
-pub fn read_settings(file: &Path) -> Result<(Settings, Option<[u32; 2]>), ExportError> {
+/// Reads settings from a JSON file or from a picture of [`write_png`]. Where a picture's settings do not tell its size,
+/// as in format 1, they get it from the picture.
+pub fn read_settings(file: &Path) -> Result<Settings, ExportError> {
     let failed = |cause: String| ExportError::new(file, cause);
     let bytes = std::fs::read(file).map_err(|error| failed(error.to_string()))?;
     let (json, size_px) = match bytes.starts_with(b"\x89PNG") {
         true => settings_of_png(&bytes).map_err(failed)?,
         false => (String::from_utf8(bytes).map_err(|_| failed("neither JSON nor PNG".to_owned()))?, None),
     };
-    let settings = Settings::from_json(&json).map_err(failed)?;
-    Ok((settings, size_px))
+    let mut settings = Settings::from_json(&json).map_err(failed)?;
+    settings.shot.size_px = settings.shot.size_px.or(size_px);
+    Ok(settings)
 }
 
 fn settings_of_png(bytes: &[u8]) -> Result<(String, Option<[u32; 2]>), String> {
@@ -82,7 +85,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("shot.png");
         write_png(&file, &picture(), &settings()).unwrap();
-        assert_eq!(read_settings(&file).unwrap(), (settings(), Some([5, 3])));
+        let mut expected = settings();
+        expected.shot.size_px = Some([5, 3]);
+        assert_eq!(read_settings(&file).unwrap(), expected);
         assert_eq!(image::open(&file).unwrap().to_rgba8(), picture());
     }
 
@@ -90,9 +95,6 @@ mod tests {
     #[test]
     fn what_was_written_before_is_read_as_it_was_meant() {
         let saved = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/saved");
-        let (settings, size_px) = read_settings(&saved.join("format-1.png")).unwrap();
-        assert_eq!(size_px, Some([96, 54]));
-        assert_eq!(read_settings(&saved.join("format-1.json")).unwrap(), (settings.clone(), None));
         let mut expected = Settings::default();
         (expected.method.discretization.grid, expected.method.discretization.dense_level) = (64, 3);
         expected.method.discretization.filter = Filter::Nearest;
@@ -106,7 +108,9 @@ mod tests {
         let light = LightEdit { intensity: 80.0, ..LightEdit::new(LightKind::POINT) };
         let lamp = AddedLight { position: [0.0, 3.0, 0.0], light, ..AddedLight::new("light 1".to_owned(), light.kind) };
         lighting.added = vec![lamp];
-        assert_eq!(settings, expected);
+        assert_eq!(read_settings(&saved.join("format-1.json")).unwrap(), expected);
+        expected.shot.size_px = Some([96, 54]);
+        assert_eq!(read_settings(&saved.join("format-1.png")).unwrap(), expected);
     }
 
     #[test]

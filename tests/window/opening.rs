@@ -95,7 +95,7 @@ fn another_scale_factor_draws_as_many_pixels_as_the_screen_has() {
         window.click("Screenshot");
         let size = window.view_rect().size() * scale;
         let file = folder.path().join(format!("octolume-courtyard-{number}.png"));
-        let (_, size_px) = read_settings(&file).expect("a picture");
+        let size_px = read_settings(&file).expect("a picture").shot.size_px;
         assert_eq!(size_px, Some([size.x, size.y].map(|edge| edge.round() as u32)), "{scale}");
     }
 }

@@ -151,7 +151,7 @@ fn a_screenshot_while_a_clip_plays_is_of_the_frame_on_screen() {
     }
     window.0.key_press_modifiers(Modifiers::NONE, Key::Space);
     window.settle();
-    let (settings, _) = read_settings(&file).expect("settings in the picture");
+    let settings = read_settings(&file).expect("settings in the picture");
     let saved = settings.shot.motion.time_secs;
     assert!((before..=after).contains(&saved), "{saved} s, and {before} to {after} s were on screen");
     assert_ne!(settings.shot.motion.time_secs, window.app().settings().shot.motion.time_secs);

@@ -140,7 +140,7 @@ fn what_lies_over_the_picture_is_saved_as_colours_and_as_light() {
     }
     let picture = |number: u32| {
         let file = folder.path().join(format!("octolume-courtyard-{number}.png"));
-        let (settings, _) = read_settings(&file).expect("settings");
+        let settings = read_settings(&file).expect("settings");
         assert_eq!(settings.method.look.surface, SurfaceView::Direct);
         image::open(file).expect("a picture").to_rgba8()
     };

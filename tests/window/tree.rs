@@ -135,7 +135,7 @@ fn a_screenshot_carries_what_is_hidden() {
     window.select("walls");
     window.press(Modifiers::NONE, Key::H);
     window.click("Screenshot");
-    let (settings, _) = read_settings(&folder.path().join("octolume-courtyard-1.png")).expect("settings");
+    let settings = read_settings(&folder.path().join("octolume-courtyard-1.png")).expect("settings");
     assert_eq!(settings.shot.visibility, window.app().settings().shot.visibility);
     assert!(!settings.shot.visibility.shows_all());
 }

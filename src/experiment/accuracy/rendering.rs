@@ -98,6 +98,7 @@ pub fn rendering(
     options: RenderingOptions,
 ) -> Experiment {
     (subject.settings.method.look.view, subject.settings.method.look.surface) = (View::Surfaces, SurfaceView::Final);
+    subject.settings.shot.size_px = Some(options.size_px);
     Experiment::begin(gpu, ("rendering", subject), Vec::<RenderingRow>::new(), async move |mut lab, rows| {
         for (number, pose) in poses.iter().enumerate() {
             let case = Case { share: Share::WHOLE.part(number, poses.len()), number, options: &options };

@@ -77,6 +77,8 @@ struct Compared {
 pub fn shadows(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>) -> Experiment {
     subject.settings.method.look.view = View::Voxels;
     subject.settings.method.look.color = ColorBy::Radiance;
+    // Nothing is drawn.
+    subject.settings.shot.size_px = None;
     Experiment::begin(gpu, ("shadows", subject), Vec::<ShadowRow>::new(), async move |mut lab, rows| {
         for (number, pose) in poses.iter().enumerate() {
             let settings = posed(&lab, pose);

@@ -41,6 +41,7 @@ pub struct VoxelRow {
 pub fn voxels(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>, draws: bool) -> Experiment {
     subject.settings.method.look.view = View::Voxels;
     subject.settings.method.look.accuracy = true;
+    subject.settings.shot.size_px = draws.then_some(SIZE_PX);
     Experiment::begin(gpu, ("voxels", subject), Vec::<VoxelRow>::new(), async move |mut lab, rows| {
         for (number, pose) in poses.iter().enumerate() {
             let share = Share::WHOLE.part(number, poses.len());
