@@ -37,7 +37,7 @@ pub struct Common {
     /// Which point of a voxel is moved; otherwise its centre
     #[arg(long, value_name = "centre|corner", value_parser = values::name::<VoxelAnchor>)]
     anchor: Option<VoxelAnchor>,
-    /// The octree's levels down to this one are stored densely; otherwise 6
+    /// The octree's levels down to this one are stored densely; otherwise 6, and 5 in a grid of 64
     #[arg(long, value_name = "LEVEL")]
     dense_level: Option<u32>,
     /// Clip by name, "" for the rest pose; otherwise the first
@@ -140,13 +140,13 @@ impl Common {
         set(&mut discretization.filter, self.filter);
         set(&mut discretization.mode, self.mode);
         set(&mut discretization.anchor, self.anchor);
-        set(&mut discretization.dense_level, self.dense_level);
+        discretization.dense_level = self.dense_level.or(discretization.dense_level);
         discretization.span = self.span.or(discretization.span);
         discretization.check().map_err(Usage)?;
         match self.dense_level {
-            Some(level) if level != discretization.dense_level() => Err(Usage(format!(
+            Some(level) if level > discretization.deepest_dense() => Err(Usage(format!(
                 "dense level {level} is not in 0 to {}: at a grid of {} the leaves are level {}",
-                discretization.dense_level(),
+                discretization.deepest_dense(),
                 discretization.grid,
                 discretization.depth()
             ))),

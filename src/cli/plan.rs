@@ -63,6 +63,7 @@ impl Plan {
             change.apply(&mut settings);
             session.engine.request(&settings, NO_PICTURE)?;
         }
+        output::warnings(&session.engine.left_out());
         let plan = session.engine.plan();
         if self.json {
             return output::json(plan);
@@ -85,8 +86,8 @@ impl Change {
             Self::Turn => motion.turn_degrees[1] += 1.0,
             Self::Filter => discretization.filter = discretization.filter.other(),
             Self::DenseLevel => {
-                let level = discretization.dense_level();
-                discretization.dense_level = if level == 0 { 1 } else { level - 1 };
+                let level = discretization.deepest_dense();
+                discretization.dense_level = Some(if level == 0 { 1 } else { level - 1 });
             }
             Self::Light => {
                 lighting.emission *= 0.5;

@@ -9,7 +9,7 @@ use octolume::settings::{Settings, View};
 use super::Usage;
 use super::look_options::LookOptions;
 use super::options::{Common, Moment};
-use super::output;
+use super::output::{self, Told};
 use super::reference::ReferenceOptions;
 use super::session::{self, Session};
 use super::values::{self, Frames, Size};
@@ -64,8 +64,10 @@ impl Render {
     fn trace(&self, settings: &mut Settings, size_px: [u32; 2]) -> anyhow::Result<()> {
         let disk = self.common.disk_cache();
         let prepared = session::prepare_only(&self.scene, &self.common, disk.as_ref(), settings)?;
+        let mut told = Told::default();
         for (file, time_secs) in self.pictures(settings) {
             settings.shot.motion.time_secs = time_secs;
+            told.tell(&prepared.past_clip(&settings.shot.motion));
             self.reference.draw((&prepared, disk.as_ref()), settings, size_px, &file)?;
         }
         Ok(())

@@ -15,7 +15,7 @@ use octolume::settings::Settings;
 use octolume::stages::SHADERS;
 
 use super::options::Common;
-use super::output;
+use super::output::{self, Told};
 
 /// Shown when no scene is named.
 pub const DEFAULT_SCENE: &str = "courtyard";
@@ -28,6 +28,7 @@ pub struct Session {
     pub prepared: Arc<Prepared>,
     pub engine: Engine,
     disk: Option<DiskCache>,
+    told: Told,
 }
 
 impl Session {
@@ -47,7 +48,7 @@ impl Session {
         let mut engine = take_gpu(common)?;
         let prepared = prepare_only(scene, common, disk.as_ref(), settings)?;
         engine.set_prepared(Some(Arc::clone(&prepared)));
-        Ok(Self { prepared, engine, disk })
+        Ok(Self { prepared, engine, disk, told: Told::default() })
     }
 
     /// Voxelizes for other settings, keeping what still holds.
@@ -66,7 +67,7 @@ impl Session {
     /// Builds and draws what the settings ask for.
     pub fn run(&mut self, settings: &Settings, image_size_px: [u32; 2]) -> anyhow::Result<()> {
         self.engine.request(settings, image_size_px)?;
-        output::warnings(&self.engine.left_out());
+        self.told.tell(&self.engine.left_out());
         Ok(self.engine.run_to_end()?)
     }
 
@@ -107,7 +108,6 @@ pub fn prepare_only(
     if disk.is_some() {
         output::message(&format!("{}, in {:.0} ms", prepared.origins, prepared.voxelize_ms));
     }
-    warn_of_time(&prepared, settings)?;
     Ok(prepared)
 }
 
@@ -132,19 +132,4 @@ fn voxelize(scene: Arc<Scene>, settings: &Settings, stores: Stores) -> anyhow::R
         prepare_with(scene, &settings.method.discretization, stores, progress)
     });
     Ok(Arc::new(prepared?))
-}
-
-/// A clip holds its last pose after its end: said, because it looks like a stopped animation.
-fn warn_of_time(prepared: &Prepared, settings: &Settings) -> anyhow::Result<()> {
-    let time_secs = settings.shot.motion.time_secs;
-    let scene = &prepared.scene;
-    match prepared.clip_index(&settings.shot.motion)?.map(|clip| &scene.clips[clip]) {
-        Some(clip) if time_secs > clip.duration_secs => output::message(&format!(
-            "warning: clip \"{}\" ends at {} s; its last pose is shown",
-            clip.name, clip.duration_secs
-        )),
-        None if time_secs > 0.0 => output::message("warning: no clip is played, so the time changes nothing"),
-        _ => {}
-    }
-    Ok(())
 }

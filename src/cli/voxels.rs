@@ -63,6 +63,7 @@ impl Voxels {
         let surface = output::with_progress("voxelizing the posed mesh", |progress| {
             prepared.exact_voxels(&settings.shot.motion, &hidden, progress)
         })?;
+        output::warnings(&prepared.past_clip(&settings.shot.motion));
         output::warnings(&surface.warnings);
         Ok((full_cells(&surface.voxels), prepared.grid))
     }

@@ -7,6 +7,8 @@ use glam::DVec3;
 
 use super::EngineError;
 use super::facts::facts;
+use super::misfits::misfits;
+use super::shadow_layouts::ShadowLayouts;
 use crate::data::grid::Grid;
 use crate::digest::Digest;
 use crate::lights::{self, PosedLight, posed_lights};
@@ -47,8 +49,7 @@ pub struct Shot {
 pub struct Method {
     pub asked: Asked,
     pub lights: Vec<PosedLight>,
-    /// A layout a light.
-    pub shadow_maps: Vec<ShadowParams>,
+    pub shadow_maps: ShadowLayouts,
     pub matrices: FrameMatrices,
 }
 
@@ -60,13 +61,6 @@ impl Method {
     /// Radiance from all directions, as kernels take it.
     pub fn sky_nits(&self) -> [f32; 3] {
         self.settings().method.lighting.sky_nits.map(|channel| channel as f32)
-    }
-
-    /// The light whose shadow map is wanted does not shine: the last one's is shown.
-    pub fn missing_map(&self) -> Option<String> {
-        let (number, last) = (self.settings().method.look.shadow_map, self.lights.len().checked_sub(1)?);
-        (self.settings().method.look.view == View::ShadowMap && number > last)
-            .then(|| format!("there is no shadow map {number}: they are 0 to {last}, and {last} is shown"))
     }
 }
 
@@ -126,8 +120,8 @@ impl Request {
         [0.0, distances.fold(0.0, f64::max)]
     }
 
-    /// Objects that the pose cannot show, lights that are nowhere in it, and a shadow map that is not there, a
-    /// sentence each.
+    /// Objects that the pose cannot show, lights that are nowhere in it, and settings that do not fit the scene or the
+    /// grid, a sentence each.
     pub fn left_out(&self) -> Vec<String> {
         let (prepared, method) = (&self.prepared, self.shown());
         let name = |&object: &usize| &prepared.objects[object].object.name;
@@ -136,7 +130,7 @@ impl Request {
             objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite"));
         let lighting = &self.settings().method.lighting;
         let lost = lights::left_out(&prepared.scene, &self.shot.pose, lighting, &self.shot.shown);
-        objects.chain(lost).chain(method.missing_map()).collect()
+        objects.chain(lost).chain(misfits(prepared, &method.asked, &method.shadow_maps)).collect()
     }
 }
 
@@ -170,10 +164,11 @@ impl Method {
         let matrices = prepared.fold((&settings.shot.motion, &shot.pose), anchor, &shot.hidden);
         let emits = prepared.emits(lighting);
         let lights = posed_lights(&prepared.scene, &shot.pose, lighting, &shot.shown, emits);
-        let shadow_maps = super::shadow_layouts::layouts(prepared, &lights, settings);
+        let shadow_maps = ShadowLayouts::new(prepared, &lights, settings);
         let facts = facts(prepared, &matrices, &shot.hidden, settings.method.cone_tracing.glossy_roughness);
         let scene = SceneFacts { lights: lights.len() as u32, picture_px: shot.size_px, ..facts };
-        let contents = contents(prepared, shot, (&matrices, &light_params(prepared, &lights, lighting), &shadow_maps));
+        let contents =
+            contents(prepared, shot, (&matrices, &light_params(prepared, &lights, lighting), &shadow_maps.maps));
         let asked = Asked { scene, settings: settings.clone(), contents, wanted_for };
         Ok(Self { asked, lights, shadow_maps, matrices })
     }

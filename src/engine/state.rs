@@ -163,8 +163,8 @@ impl Engine {
         self.wanted.as_ref().is_some_and(|wanted| wanted.shows_nothing())
     }
 
-    /// Objects that the requested pose cannot show, lights that are nowhere in it, and a shadow map that is not there, a
-    /// sentence each.
+    /// Objects that the requested pose cannot show, lights that are nowhere in it, and settings that do not fit the
+    /// scene or the grid, a sentence each.
     pub fn left_out(&self) -> Vec<String> {
         self.wanted.as_ref().map_or(Vec::new(), |wanted| wanted.left_out())
     }

@@ -96,7 +96,7 @@ mod tests {
     fn what_was_written_before_is_read_as_it_was_meant() {
         let saved = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/saved");
         let mut expected = Settings::default();
-        (expected.method.discretization.grid, expected.method.discretization.dense_level) = (64, 3);
+        (expected.method.discretization.grid, expected.method.discretization.dense_level) = (64, Some(3));
         expected.method.discretization.filter = Filter::Nearest;
         (expected.shot.motion.time_secs, expected.shot.motion.turn_degrees) = (1.25, [0.0, 20.0, 0.0]);
         (expected.method.look.color, expected.method.look.exposure_stops) = (ColorBy::Radiance, Some(-1.0));

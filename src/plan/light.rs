@@ -46,6 +46,11 @@ pub(super) fn shadow_maps(asked: &Asked) -> Wanted {
     Ok(key.digest(moved, asked.contents.placed).build())
 }
 
+/// Somebody reads shadow maps, and something throws shadows.
+pub fn makes_shadow_maps(asked: &Asked) -> bool {
+    shadow_maps(asked).is_ok()
+}
+
 /// Where opacity is enough, the store of radiance serves too.
 pub(super) fn light(asked: &Asked, keys: &Keys, held: &Held) -> Wanted {
     unless(store_skipped(asked))?;

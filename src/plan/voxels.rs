@@ -20,6 +20,11 @@ pub(super) fn octree_skipped(asked: &Asked) -> Option<&'static str> {
     }
 }
 
+/// Something calls for an octree, and there is something to make it of.
+pub fn builds_octree(asked: &Asked) -> bool {
+    octree_skipped(asked).is_none()
+}
+
 fn reads_octree(asked: &Asked) -> bool {
     ConesAsked::new(asked).any() || marches_shadows(asked)
 }
@@ -70,7 +75,7 @@ pub(super) fn from_octree(key: KeyBuilder, changed: &'static str, keys: &Keys) -
 pub(super) fn masks(asked: &Asked, keys: &Keys) -> Wanted {
     let discretization = &asked.settings.method.discretization;
     let key = from_voxels(Key::of(Part::Masks), keys)?.method("another filter", &discretization.filter);
-    Ok(key.method("another dense level", &(discretization.depth(), discretization.dense_level())).build())
+    Ok(key.method("another dense level", &(discretization.depth(), discretization.deepest_dense())).build())
 }
 
 pub(super) fn topology(keys: &Keys) -> Wanted {

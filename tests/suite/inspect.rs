@@ -18,7 +18,7 @@ const SIZE_PX: [u32; 2] = [64, 48];
 fn settings() -> Settings {
     let mut settings = Settings::default();
     settings.method.discretization.grid = 64;
-    settings.method.discretization.dense_level = 3;
+    settings.method.discretization.dense_level = Some(3);
     settings.method.look.pointers = true;
     settings
 }

@@ -2,8 +2,9 @@
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
+use octolume::settings::{NodeNames, Settings};
 
-use crate::rig::{Window, assert_changed, difference};
+use crate::rig::{Window, assert_changed, difference, wgpu_setup};
 
 #[test]
 fn every_control_of_the_picture_changes_pixels_and_back() {
@@ -78,4 +79,16 @@ fn the_timeline_moves_the_scene_and_scrubbing_returns_to_the_same_picture() {
     window.press(Modifiers::NONE, Key::ArrowLeft);
     let thirtieths = window.app().settings().shot.motion.time_secs * 30.0;
     assert!((thirtieths - thirtieths.round()).abs() < 1e-9, "a step lands on a thirtieth");
+}
+
+#[test]
+fn what_does_not_fit_a_smaller_grid_is_told() {
+    let mut settings = Settings::default();
+    (settings.method.look.level, settings.method.discretization.dense_level) = (Some(7), Some(6));
+    let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
+    let level = "level 7 is not one of 0 (the root) to 6 (the leaves): the leaves are shown";
+    let dense = "dense level 6 does not fit a grid of 64 cells";
+    assert_eq!([window.log_count(level), window.log_count(dense)], [0, 0]);
+    window.choose("Grid", "64³ cells");
+    assert_eq!([window.log_count(level), window.log_count(dense)], [1, 1]);
 }

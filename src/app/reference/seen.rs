@@ -63,7 +63,7 @@ mod tests {
         };
         other.method.cone_tracing.cones = 9;
         other.method.lighting.cones = 9;
-        other.method.discretization.dense_level = 3;
+        other.method.discretization.dense_level = Some(3);
         assert_eq!(of_paths(&other), of_paths(&Settings::default()));
         other.method.cone_tracing.occlusion_distance = Some(1.0);
         assert_ne!(of_paths(&other), of_paths(&Settings::default()));

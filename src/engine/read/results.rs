@@ -62,7 +62,7 @@ impl Engine {
         match look.view {
             View::Slice => Some(slice::range_of_mean(&look.slice, self.mean_light(request, keys))),
             View::ShadowMap => {
-                let maps = &request.shown().shadow_maps;
+                let maps = &request.shown().shadow_maps.maps;
                 let map = maps.get(look.shadow_map).or(maps.last())?;
                 Some(map.range_cells(request.grid().cells()).map(|cells| cells * request.grid().span))
             }
