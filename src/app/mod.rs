@@ -182,11 +182,8 @@ impl App {
         let render = context.wgpu_render_state.clone().ok_or("the window has no GPU")?;
         let gpu = Arc::new(Gpu::from_wgpu(&SHADERS, &render.adapter, render.device.clone(), render.queue.clone()));
         theme::apply(&context.egui_ctx);
-        let mut settings = start.settings;
-        // Pictures are as large as the window makes them.
-        settings.shot.size_px = None;
         let mut app = Self {
-            settings,
+            settings: start.settings,
             scene: None,
             playback: Playback::default(),
             stage: Stage::new(Arc::clone(&gpu)),

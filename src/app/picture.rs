@@ -63,7 +63,8 @@ impl App {
         let mut settings = self.settings.clone();
         settings.shot.camera = Some(self.camera(full_px));
         if let Some(ready) = &self.scene {
-            settings.shot.scene = Some(ready.prepared.scene.identity());
+            // The window decides how large it is.
+            (settings.shot.scene, settings.shot.size_px) = (Some(ready.prepared.scene.identity()), None);
             let made = ready.discretization;
             let wanted = &mut settings.method.discretization;
             (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);

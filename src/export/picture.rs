@@ -63,7 +63,7 @@ mod tests {
     use image::Rgba;
 
     use super::*;
-    use crate::scene::{LightKind, OrbitCamera};
+    use crate::scene::{LightKind, OrbitCamera, SceneIdentity};
     use crate::settings::lighting::{AddedLight, LightEdit, Shadows, SunShines};
     use crate::settings::{ColorBy, Filter, View};
 
@@ -95,6 +95,7 @@ mod tests {
     #[test]
     fn what_was_written_before_is_read_as_it_was_meant() {
         let saved = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/saved");
+        let read = |name: &str| read_settings(&saved.join(name)).unwrap();
         let mut expected = Settings::default();
         (expected.method.discretization.grid, expected.method.discretization.dense_level) = (64, Some(3));
         expected.method.discretization.filter = Filter::Nearest;
@@ -108,9 +109,12 @@ mod tests {
         let light = LightEdit { intensity: 80.0, ..LightEdit::new(LightKind::POINT) };
         let lamp = AddedLight { position: [0.0, 3.0, 0.0], light, ..AddedLight::new("light 1".to_owned(), light.kind) };
         lighting.added = vec![lamp];
-        assert_eq!(read_settings(&saved.join("format-1.json")).unwrap(), expected);
+        assert_eq!(read("format-1.json"), expected);
         expected.shot.size_px = Some([96, 54]);
-        assert_eq!(read_settings(&saved.join("format-1.png")).unwrap(), expected);
+        assert_eq!(read("format-1.png"), expected, "a picture tells its size");
+        let digest = serde_json::from_str(r#""399fa1309a4732b56ca45a94d3cbcb00""#).unwrap();
+        expected.shot.scene = Some(SceneIdentity { source: "courtyard".to_owned(), digest: Some(digest) });
+        assert_eq!((read("format-2.json"), read("format-2.png")), (expected.clone(), expected));
     }
 
     #[test]
