@@ -14,39 +14,39 @@ impl App {
             Command::ShowScene(number) => self.show_another_scene(ctx, number),
             Command::ChooseFile => self.desk.choose_file(ctx),
             Command::CancelLoading => self.cancel_loading(),
-            Command::Discretize(discretization) => self.settings.discretization = discretization,
-            Command::Look(look) => self.settings.look = look,
+            Command::Discretize(discretization) => self.settings.method.discretization = discretization,
+            Command::Look(look) => self.settings.method.look = look,
             Command::Reference(order) => self.desk.reference.apply(order),
             Command::Measure(order) => self.measure(ctx, order),
             Command::Pin(pin) => self.desk.inspector.apply(pin),
-            Command::Light(lighting) => self.settings.lighting = lighting,
-            Command::TraceCones(cones) => self.settings.cone_tracing = cones,
+            Command::Light(lighting) => self.settings.method.lighting = lighting,
+            Command::TraceCones(cones) => self.settings.method.cone_tracing = cones,
             Command::Camera(camera) => {
-                self.settings.look.camera = Some(camera);
+                self.settings.shot.camera = Some(camera);
                 self.moved_at_secs = Some(clock_secs);
             }
             Command::SceneCamera(camera) => self.look_through(camera),
-            Command::FrameAll => self.settings.look.camera = None,
+            Command::FrameAll => self.settings.shot.camera = None,
             Command::Frame => self.frame_selected(),
             Command::Select(node) => self.select(node),
             Command::ToggleShown => self.toggle_shown(),
             Command::Isolate => self.isolate(),
-            Command::ShowAll => self.settings.visibility = Visibility::default(),
+            Command::ShowAll => self.settings.shot.visibility = Visibility::default(),
             Command::Undo => self.undo_or_redo(true),
             Command::Redo => self.undo_or_redo(false),
             Command::ToggleTree => self.desk.unfolded.tree ^= true,
             Command::Move(motion) => {
-                self.settings.motion = motion;
+                self.settings.shot.motion = motion;
                 self.restart_clock(clock_secs);
             }
             Command::TogglePlaying if self.playback.is_playing() => self.playback.pause(),
             Command::TogglePlaying => {
-                self.playback.play(clock_secs, self.settings.motion.time_secs, self.clip_secs());
+                self.playback.play(clock_secs, self.settings.shot.motion.time_secs, self.clip_secs());
             }
             Command::Step(steps) => {
                 self.playback.pause();
-                let time_secs = self.settings.motion.time_secs;
-                self.settings.motion.time_secs =
+                let time_secs = self.settings.shot.motion.time_secs;
+                self.settings.shot.motion.time_secs =
                     playback::stepped(time_secs, steps, self.clip_secs(), self.playback.looped);
             }
             Command::Loop(looped) => {
@@ -66,7 +66,7 @@ impl App {
     /// Goes on playing from the time that is set now.
     fn restart_clock(&mut self, clock_secs: f64) {
         if self.playback.is_playing() {
-            self.playback.play(clock_secs, self.settings.motion.time_secs, self.clip_secs());
+            self.playback.play(clock_secs, self.settings.shot.motion.time_secs, self.clip_secs());
         }
     }
 }

@@ -24,7 +24,7 @@ pub struct Posed {
 
 impl Posed {
     pub fn of(settings: &Settings) -> Self {
-        Self { motion: settings.motion.clone(), visibility: settings.visibility.clone() }
+        Self { motion: settings.shot.motion.clone(), visibility: settings.shot.visibility.clone() }
     }
 }
 

@@ -31,7 +31,7 @@ impl eframe::App for App {
         commands.extend(self.panels_ui(ui));
         self.apply_all(&ctx, commands, clock_secs);
         if let Some(time_secs) = self.playback.advance(clock_secs, self.clip_secs()) {
-            self.settings.motion.time_secs = time_secs;
+            self.settings.shot.motion.time_secs = time_secs;
         }
         egui::CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, clock_secs));
         self.note_for_undo(clock_secs);
@@ -95,7 +95,7 @@ impl App {
     fn timeline_ui(&self, ui: &mut Ui) -> Vec<Command> {
         let clips = self.prepared().map_or(&[][..], |prepared| &prepared.scene.clips);
         let shown_secs = self.stage.engine.moment_on_screen().map(|motion| motion.time_secs);
-        panels::timeline::ui(ui, (clips, self.clip()), (&self.settings.motion, shown_secs), &self.playback)
+        panels::timeline::ui(ui, (clips, self.clip()), (&self.settings.shot.motion, shown_secs), &self.playback)
     }
 
     fn tree_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
@@ -103,8 +103,11 @@ impl App {
             panels::nothing(ui, "No scene is open.");
             return Vec::new();
         };
-        let panel =
-            TreePanel { prepared: &ready.prepared, outline: &ready.outline, visibility: &self.settings.visibility };
+        let panel = TreePanel {
+            prepared: &ready.prepared,
+            outline: &ready.outline,
+            visibility: &self.settings.shot.visibility,
+        };
         panels::tree::ui(ui, panel, &mut self.desk.tree)
     }
 
@@ -116,7 +119,7 @@ impl App {
             panels::scene::ui(ui, scene, &mut self.desk.path, &self.desk.recent)
         });
         commands.extend(section(ui, "Discretization", true, |ui| {
-            panels::discretization::ui(ui, &settings.discretization, grid.map(|grid| grid.span))
+            panels::discretization::ui(ui, &settings.method.discretization, grid.map(|grid| grid.span))
         }));
         commands
             .extend(section(ui, "Filter", true, |ui| panels::filter::ui(ui, settings, self.stage.accuracy.as_ref())));
@@ -130,8 +133,9 @@ impl App {
         let settings = &self.settings;
         let prepared = self.prepared();
         let panel = ViewPanel {
-            look: &settings.look,
-            depth: prepared.map_or(settings.discretization.depth(), |prepared| prepared.grid.depth),
+            look: &settings.method.look,
+            depth: prepared.map_or(settings.method.discretization.depth(), |prepared| prepared.grid.depth),
+            is_camera_free: settings.shot.camera.is_some(),
             cameras: prepared.map_or(&[][..], |prepared| &prepared.scene.cameras),
             lights: &self.shining(),
             exposure: self.stage.exposure,
@@ -140,7 +144,7 @@ impl App {
         panels::control(ui, "Save to", "Folder that screenshots are written to.", |ui| {
             ui.add(TextEdit::singleline(&mut self.screenshots.folder).desired_width(f32::INFINITY))
         });
-        if settings.look.view == View::Surfaces {
+        if settings.method.look.view == View::Surfaces {
             let tip = "Saves what is shown as OpenEXR: linear, unclamped, in nits, lux or scene units.";
             if ui.button("Save light").on_hover_text(tip).clicked() {
                 commands.push(Command::SaveLight);
@@ -153,8 +157,8 @@ impl App {
         let settings = &self.settings;
         let extent = self.prepared().map_or(0.0, |prepared| f64::from(prepared.grid.cells()) * prepared.grid.span);
         let panel = ConesPanel {
-            cones: &settings.cone_tracing,
-            look: &settings.look,
+            cones: &settings.method.cone_tracing,
+            look: &settings.method.look,
             occlusion_distance: extent * ConeTracing::OCCLUSION_GRID_PART,
         };
         panels::cones::ui(ui, panel)
@@ -162,7 +166,7 @@ impl App {
 
     /// Names of the lights that have a shadow map, as far as they are asked for.
     fn shining(&self) -> Vec<String> {
-        let looked_at = self.settings.look.view == View::ShadowMap;
+        let looked_at = self.settings.method.look.view == View::ShadowMap;
         let known = self.prepared().filter(|_| looked_at).map(|prepared| prepared.known_lights(&self.settings));
         let known = known.and_then(Result::ok).unwrap_or_default();
         known.into_iter().filter(|light| light.shines == Shines::Yes).map(|light| light.name).collect()
@@ -173,7 +177,7 @@ impl App {
             panels::nothing(ui, "No scene is open.");
             return Vec::new();
         };
-        let lighting = &self.settings.lighting;
+        let lighting = &self.settings.method.lighting;
         let known = match ready.prepared.known_lights(&self.settings) {
             Ok(known) => known,
             Err(error) => {
@@ -196,7 +200,7 @@ impl App {
         inspector.is_open = false;
         commands.extend(section(ui, "Node under cursor", false, |ui| {
             inspector.is_open = true;
-            panels::node::ui(ui, inspector, &self.settings.look)
+            panels::node::ui(ui, inspector, &self.settings.method.look)
         }));
         let reference = &mut self.desk.reference;
         reference.is_open = false;
@@ -205,7 +209,7 @@ impl App {
             let panel = ReferencePanel {
                 reference,
                 timings: &stage.timings,
-                is_surfaces: self.settings.look.view == View::Surfaces,
+                is_surfaces: self.settings.method.look.view == View::Surfaces,
                 has_scene: self.scene.is_some(),
             };
             panels::reference::ui(ui, &panel)
@@ -214,7 +218,7 @@ impl App {
             panels::measure::ui(ui, &self.desk.measuring, self.scene.is_some())
         }));
         commands.extend(section(ui, "Octree", true, |ui| {
-            panels::octree::ui(ui, stage.octree.as_ref(), self.settings.look.level);
+            panels::octree::ui(ui, stage.octree.as_ref(), self.settings.method.look.level);
             Vec::new()
         }));
         commands.extend(section(ui, "Frame plan", true, |ui| {

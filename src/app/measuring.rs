@@ -63,19 +63,21 @@ impl Measured {
     /// `settings`: of the picture that is shown. What the measure does not depend on is as it is at first, so that
     /// a report outlives another view.
     pub fn new(prepared: &Arc<Prepared>, settings: &Settings, measure: Measure) -> Self {
-        let shown = &settings.look;
-        let look = match measure {
-            Measure::Kernels => Look { view: View::Voxels, accuracy: false, ..*shown },
-            Measure::Surfaces => Look { camera: shown.camera, ..Look::default() },
-            Measure::Light | Measure::Voxels | Measure::Shadows => Look::default(),
+        let mut settings = settings.clone();
+        settings.method.look = match measure {
+            Measure::Kernels => Look { view: View::Voxels, accuracy: false, ..settings.method.look },
+            Measure::Surfaces | Measure::Light | Measure::Voxels | Measure::Shadows => Look::default(),
         };
-        Self { prepared: Arc::clone(prepared), settings: Settings { look, ..settings.clone() }, measure }
+        if matches!(measure, Measure::Light | Measure::Voxels | Measure::Shadows) {
+            settings.shot.camera = None;
+        }
+        Self { prepared: Arc::clone(prepared), settings, measure }
     }
 
     fn begin(&self, gpu: &Arc<Gpu>, runs: u32) -> Experiment {
         let subject = Subject { prepared: Arc::clone(&self.prepared), settings: self.settings.clone(), runs };
         let nothing = BenchOptions { warmup: WARMUP, rebuild: false, light: false, surfaces: false };
-        let pose = vec![self.settings.motion.clone()];
+        let pose = vec![self.settings.shot.motion.clone()];
         match self.measure {
             Measure::Kernels => experiment::bench(gpu, subject, BenchOptions { rebuild: true, ..nothing }),
             Measure::Light => experiment::bench(gpu, subject, BenchOptions { light: true, ..nothing }),
@@ -230,12 +232,12 @@ mod tests {
     #[test]
     fn a_report_outlives_what_it_does_not_depend_on() {
         let settings = Settings::default();
-        let prepared = prepare(Arc::new(Scene::default()), &settings.discretization, None, &Progress::default());
+        let prepared = prepare(Arc::new(Scene::default()), &settings.method.discretization, None, &Progress::default());
         let prepared = Arc::new(prepared.expect("nothing to voxelize"));
         let mut sliced = settings.clone();
-        sliced.look = Look { view: View::Slice, level: Some(3), ..Look::default() };
+        sliced.method.look = Look { view: View::Slice, level: Some(3), ..Look::default() };
         let mut later = settings.clone();
-        later.motion.time_secs = 1.0;
+        later.shot.motion.time_secs = 1.0;
         let of = |settings: &Settings, measure| Measured::new(&prepared, settings, measure);
         assert!(of(&settings, Measure::Voxels) == of(&sliced, Measure::Voxels));
         assert!(of(&settings, Measure::Kernels) != of(&sliced, Measure::Kernels), "the level that is drawn");

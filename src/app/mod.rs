@@ -247,7 +247,7 @@ impl App {
     /// The clip that the settings name; `None` for the rest pose.
     fn clip(&self) -> Option<&Clip> {
         let prepared = self.prepared()?;
-        let index = prepared.clip_index(&self.settings.motion).ok()??;
+        let index = prepared.clip_index(&self.settings.shot.motion).ok()??;
         prepared.scene.clips.get(index)
     }
 

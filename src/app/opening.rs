@@ -19,9 +19,9 @@ impl App {
     pub(super) fn open(&mut self, ctx: &egui::Context, path: PathBuf, shown: Option<SceneChoice>) {
         // A span, a pose and a camera of one scene mean nothing in another.
         if self.scene.is_some() {
-            self.settings.discretization.span = None;
+            self.settings.method.discretization.span = None;
         }
-        self.loader.open(ctx, &path, shown, self.settings.discretization);
+        self.loader.open(ctx, &path, shown, self.settings.method.discretization);
         self.desk.path = path.display().to_string();
     }
 
@@ -43,7 +43,7 @@ impl App {
     fn keep_open_scene(&mut self) {
         if let Some(ready) = &self.scene {
             let made = ready.discretization;
-            let wanted = &mut self.settings.discretization;
+            let wanted = &mut self.settings.method.discretization;
             (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);
         }
     }
@@ -65,7 +65,7 @@ impl App {
                 Err(cause) => self.journal.tell(Severity::Error, cause),
             }
         }
-        let wanted = self.settings.discretization;
+        let wanted = self.settings.method.discretization;
         match &self.scene {
             Some(ready) if self.loader.is_opening() || same_voxels(&ready.discretization, &wanted) => {}
             Some(ready) => self.loader.discretize(ctx, &ready.prepared, wanted),
@@ -77,13 +77,13 @@ impl App {
         let prepared = &ready.prepared;
         if ready.is_new {
             if self.scene.is_some() {
-                self.settings.motion = MotionSettings::default();
-                self.settings.look.camera = None;
-                self.settings.visibility = Visibility::default();
+                self.settings.shot.motion = MotionSettings::default();
+                self.settings.shot.camera = None;
+                self.settings.shot.visibility = Visibility::default();
                 // Places and nodes of the scene before mean nothing here.
-                self.settings.lighting.edits.clear();
-                self.settings.lighting.added.clear();
-                self.settings.look.shadow_map = 0;
+                self.settings.method.lighting.edits.clear();
+                self.settings.method.lighting.added.clear();
+                self.settings.method.look.shadow_map = 0;
                 self.playback.pause();
             }
             self.find_named(&prepared.scene);
@@ -103,7 +103,7 @@ impl App {
             }
         }
         self.stage.set_prepared(prepared);
-        let opens_with_its_camera = ready.is_new && self.settings.look.camera.is_none();
+        let opens_with_its_camera = ready.is_new && self.settings.shot.camera.is_none();
         self.scene = Some(ready);
         if opens_with_its_camera {
             self.look_through(0);
@@ -114,14 +114,14 @@ impl App {
     /// not have hides and changes nothing.
     fn find_named(&mut self, scene: &Scene) {
         let names = std::mem::take(&mut self.names);
-        let visibility = &mut self.settings.visibility;
+        let visibility = &mut self.settings.shot.visibility;
         let applied = names.apply(scene, visibility);
         let hidden = applied.and_then(|notes| visibility.shown_nodes(scene).map(|_| notes));
         let hidden = hidden.map_err(|error| {
             *visibility = Visibility::default();
             error.to_string()
         });
-        let lighting = &mut self.settings.lighting;
+        let lighting = &mut self.settings.method.lighting;
         let lit = names.change_lights(scene, lighting).map_err(|error| {
             lighting.edits.clear();
             error.to_string()
@@ -145,9 +145,9 @@ impl App {
     /// Takes a camera of the file, if it has this one.
     pub(super) fn look_through(&mut self, camera: usize) {
         let Some(prepared) = self.prepared() else { return };
-        let Ok(pose) = prepared.pose(&self.settings.motion) else { return };
+        let Ok(pose) = prepared.pose(&self.settings.shot.motion) else { return };
         if let Some(camera) = camera_from_scene_camera(&prepared.scene, camera, &pose) {
-            self.settings.look.camera = Some(camera);
+            self.settings.shot.camera = Some(camera);
         }
     }
 }

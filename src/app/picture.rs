@@ -50,7 +50,7 @@ impl App {
 
     /// What the camera of the settings is when it frames everything.
     pub(super) fn camera(&self, full_px: [u32; 2]) -> OrbitCamera {
-        self.settings.look.camera.unwrap_or_else(|| {
+        self.settings.shot.camera.unwrap_or_else(|| {
             let mut camera = OrbitCamera::default();
             let aspect = f64::from(full_px[0]) / f64::from(full_px[1]);
             camera.frame(self.prepared().and_then(|prepared| prepared.bounds), aspect);
@@ -61,14 +61,16 @@ impl App {
     /// The settings to draw: of the voxels that are there, in a pose whose exact set is there too.
     fn wanted_picture(&mut self, ui: &Ui, full_px: [u32; 2], clock_secs: f64) -> (Settings, [u32; 2]) {
         let mut settings = self.settings.clone();
-        settings.look.camera = Some(self.camera(full_px));
+        settings.shot.camera = Some(self.camera(full_px));
         if let Some(ready) = &self.scene {
+            // The window decides how large it is.
+            (settings.shot.scene, settings.shot.size_px) = (Some(ready.prepared.scene.identity()), None);
             let made = ready.discretization;
-            let wanted = &mut settings.discretization;
+            let wanted = &mut settings.method.discretization;
             (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);
-            let looked_at = settings.look.accuracy || settings.look.view == View::Ghost;
+            let looked_at = settings.method.look.accuracy || settings.method.look.view == View::Ghost;
             let update = self.exact.update(ui.ctx(), &ready.prepared, &Posed::of(&settings), looked_at);
-            (settings.motion, settings.visibility) = (update.posed.motion, update.posed.visibility);
+            (settings.shot.motion, settings.shot.visibility) = (update.posed.motion, update.posed.visibility);
             if let Some(exact) = update.exact {
                 self.stage.offer_exact(exact);
             }
@@ -190,7 +192,7 @@ impl App {
             let text = if self.loader.progress().is_some() { "Opening…" } else { "No scene is open" };
             painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(15.0), theme::WEAK);
         } else if self.stage.engine.shows_nothing() {
-            let text = if self.settings.visibility.shows_all() {
+            let text = if self.settings.shot.visibility.shows_all() {
                 "Nothing of this scene is in the grid"
             } else {
                 "What is shown is not in the grid; Alt+H shows everything"
@@ -214,24 +216,24 @@ impl App {
         let values = legend::Values { exposure: self.stage.exposure, range: self.stage.value_range };
         self.paint_node(&painter, rect, full_px);
         match self.desk.reference.most_difference() {
-            Some(most) => legend::differences(&painter, rect, self.settings.look.surface, most),
-            None => legend::paint(&painter, rect, &self.settings.look, values),
+            Some(most) => legend::differences(&painter, rect, self.settings.method.look.surface, most),
+            None => legend::paint(&painter, rect, &self.settings.method.look, values),
         }
     }
 
     /// The picture on screen is not the ghost of the pose that is asked for.
     fn ghost_is_on_its_way(&self) -> bool {
         let engine = &self.stage.engine;
-        let of_pose = engine
-            .settings_on_screen()
-            .is_some_and(|shown| shown.look.view == View::Ghost && shown.motion == self.settings.motion);
-        self.settings.look.view == View::Ghost && !of_pose
+        let of_pose = engine.settings_on_screen().is_some_and(|shown| {
+            shown.method.look.view == View::Ghost && shown.shot.motion == self.settings.shot.motion
+        });
+        self.settings.method.look.view == View::Ghost && !of_pose
     }
 
     /// The node that is looked at, over the picture, where its pointers are wanted.
     fn paint_node(&self, painter: &egui::Painter, rect: Rect, full_px: [u32; 2]) {
         let inspector = &self.desk.inspector;
-        let is_wanted = inspector.is_open && self.settings.look.pointers && !full_px.contains(&0);
+        let is_wanted = inspector.is_open && self.settings.method.look.pointers && !full_px.contains(&0);
         let facts = inspector.facts().flatten().filter(|_| is_wanted);
         if let (Some(facts), Some(prepared)) = (facts, self.prepared()) {
             let rays = PixelRays::new(&self.camera(full_px), &prepared.grid, full_px);

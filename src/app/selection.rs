@@ -14,7 +14,7 @@ impl App {
     /// Hides the selected node, or shows it again.
     pub(super) fn toggle_shown(&mut self) {
         let (Some(ready), Some(node)) = (&self.scene, self.desk.tree.selected) else { return };
-        let (scene, visibility) = (&ready.prepared.scene, &mut self.settings.visibility);
+        let (scene, visibility) = (&ready.prepared.scene, &mut self.settings.shot.visibility);
         match visibility.shown_nodes(scene) {
             Ok(shown) if shown[node] => visibility.hide(node),
             Ok(_) => visibility.show(scene, node),
@@ -27,7 +27,7 @@ impl App {
         let (Some(ready), Some(node)) = (&self.scene, self.desk.tree.selected) else { return };
         let scene = &ready.prepared.scene;
         if ready.outline.contents[node].objects > 0 {
-            self.settings.visibility.isolate(scene, node);
+            self.settings.shot.visibility.isolate(scene, node);
         } else {
             let name = outline::name(scene, node);
             self.journal
@@ -39,14 +39,14 @@ impl App {
     /// everything where none is selected.
     pub(super) fn frame_selected(&mut self) {
         let (Some(ready), Some(node)) = (&self.scene, self.desk.tree.selected) else {
-            self.settings.look.camera = None;
+            self.settings.shot.camera = None;
             return;
         };
-        match ready.prepared.bounds_below(node, &self.settings.motion) {
+        match ready.prepared.bounds_below(node, &self.settings.shot.motion) {
             Ok(Some(bounds)) => {
                 let mut camera = self.camera(self.view_px);
                 camera.frame(Some(bounds), f64::from(self.view_px[0]) / f64::from(self.view_px[1]));
-                self.settings.look.camera = Some(camera);
+                self.settings.shot.camera = Some(camera);
             }
             Ok(None) => {
                 let name = outline::name(&ready.prepared.scene, node);

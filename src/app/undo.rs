@@ -47,7 +47,7 @@ impl Undo {
 impl App {
     fn undoable(&self) -> Settings {
         let mut settings = self.settings.clone();
-        settings.motion.time_secs = 0.0;
+        settings.shot.motion.time_secs = 0.0;
         settings
     }
 
@@ -59,7 +59,7 @@ impl App {
     pub(super) fn undo_or_redo(&mut self, back: bool) {
         let now = self.undoable();
         if let Some(mut settings) = self.undo.step(&now, back) {
-            settings.motion.time_secs = self.settings.motion.time_secs;
+            settings.shot.motion.time_secs = self.settings.shot.motion.time_secs;
             self.settings = settings;
         }
     }
@@ -71,7 +71,7 @@ mod tests {
 
     fn at_level(level: u32) -> Settings {
         let mut settings = Settings::default();
-        settings.look.level = Some(level);
+        settings.method.look.level = Some(level);
         settings
     }
 

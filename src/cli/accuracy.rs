@@ -71,7 +71,7 @@ struct RenderingOptions {
 impl Accuracy {
     pub fn run(&self) -> anyhow::Result<()> {
         let settings = self.common.settings()?;
-        let grids = if self.grids.is_empty() { vec![settings.discretization.grid] } else { self.grids.clone() };
+        let grids = if self.grids.is_empty() { vec![settings.method.discretization.grid] } else { self.grids.clone() };
         self.check(&settings, &grids)?;
         if let Some(folder) = &self.output {
             std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
@@ -88,11 +88,11 @@ impl Accuracy {
         let mut trial = settings.clone();
         trial.check().map_err(Usage)?;
         for &grid in grids {
-            trial.discretization.grid = grid;
+            trial.method.discretization.grid = grid;
             trial.check().map_err(Usage)?;
         }
         for &time_secs in &self.times {
-            trial.motion.time_secs = time_secs;
+            trial.shot.motion.time_secs = time_secs;
             trial.check().map_err(Usage)?;
         }
         Ok(())
@@ -103,11 +103,11 @@ impl Accuracy {
         let mut report: Option<Report> = None;
         for scene in &self.scenes {
             let mut settings = settings.clone();
-            settings.discretization.grid = grids[0];
+            settings.method.discretization.grid = grids[0];
             let mut session = Session::open(scene, &self.common, &mut settings)?;
-            let poses = self.poses(&session, &settings.motion)?;
+            let poses = self.poses(&session, &settings.shot.motion)?;
             for &grid in grids {
-                settings.discretization.grid = grid;
+                settings.method.discretization.grid = grid;
                 session.voxelize_again(&settings)?;
                 let found = drive(self.experiment(&session, &settings, poses.clone()), self.output.as_deref())?;
                 match &mut report {

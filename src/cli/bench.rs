@@ -68,7 +68,7 @@ fn head(report: &Report, kernels: &KernelReport) -> String {
     format!(
         "{} at {} cells of {} units, {} voxels, on {} ({}), {}",
         kernels.scene,
-        report.settings.discretization.grid,
+        report.settings.method.discretization.grid,
         kernels.span,
         kernels.voxels,
         report.adapter,

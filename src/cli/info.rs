@@ -76,7 +76,7 @@ impl Info {
     pub fn run(&self) -> anyhow::Result<()> {
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
-        settings.look.view = View::Voxels;
+        settings.method.look.view = View::Voxels;
         settings.check().map_err(Usage)?;
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         session.run(&settings, NO_PICTURE)?;
@@ -111,7 +111,7 @@ impl Facts {
             memory_bytes: scene.memory_bytes,
             warnings: prepared.warnings.iter().map(Warning::to_string).collect(),
             bounds: prepared.bounds.map(Bounds::from),
-            grid: settings.discretization.grid,
+            grid: settings.method.discretization.grid,
             span: prepared.grid.span,
             grid_corner: prepared.grid.corner().to_array(),
             voxels: prepared.voxel_count(),

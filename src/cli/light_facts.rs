@@ -42,7 +42,7 @@ impl LightFacts {
         let KnownLight { source, name, light, shines, .. } = known;
         let nodes = &prepared.scene.nodes;
         let (source, node, edited) = match source {
-            LightSource::Node(node) => ("scene", Some(node), settings.lighting.edits.contains_key(&node)),
+            LightSource::Node(node) => ("scene", Some(node), settings.method.lighting.edits.contains_key(&node)),
             LightSource::Sun => ("sun", None, false),
             LightSource::Added(_) => ("added", None, false),
         };

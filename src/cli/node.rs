@@ -35,11 +35,11 @@ impl Node {
     pub fn run(&self) -> anyhow::Result<()> {
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
-        let look = &mut settings.look;
+        let look = &mut settings.method.look;
         // Light is computed where it is looked at.
         (look.view, look.color, look.pointers) = (View::Voxels, ColorBy::Radiance, true);
         settings.check().map_err(Usage)?;
-        let depth = settings.discretization.depth();
+        let depth = settings.method.discretization.depth();
         let address = NodeAddress { level: self.level.unwrap_or(depth), cell: self.cell };
         check(address, depth)?;
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;

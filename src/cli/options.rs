@@ -1,6 +1,6 @@
 //! Options that subcommands share, and the settings they make.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use bytesize::ByteSize;
 use clap::Args;
@@ -37,7 +37,7 @@ pub struct Common {
     /// Which point of a voxel is moved; otherwise its centre
     #[arg(long, value_name = "centre|corner", value_parser = values::name::<VoxelAnchor>)]
     anchor: Option<VoxelAnchor>,
-    /// The octree's levels down to this one are stored densely; otherwise 6
+    /// The octree's levels down to this one are stored densely; otherwise 6, and 5 in a grid of 64
     #[arg(long, value_name = "LEVEL")]
     dense_level: Option<u32>,
     /// Clip by name, "" for the rest pose; otherwise the first
@@ -97,18 +97,18 @@ pub struct Moment {
 impl Common {
     /// The settings file's, or the default ones, with every option given put over them.
     pub fn settings(&self) -> anyhow::Result<Settings> {
-        let mut settings = self.settings_file()?.0;
-        self.discretize(&mut settings.discretization)?;
+        let mut settings = self.settings_file()?;
+        self.discretize(&mut settings.method.discretization)?;
         if self.clip.is_some() {
-            settings.motion.clip.clone_from(&self.clip);
+            settings.shot.motion.clip.clone_from(&self.clip);
         }
-        set(&mut settings.motion.turn_degrees, self.turn);
+        set(&mut settings.shot.motion.turn_degrees, self.turn);
         if let (Some(eye), Some(target)) = (self.eye, self.target) {
             let fov_y_degrees = self.fov.unwrap_or(OrbitCamera::default().fov_y_degrees);
-            settings.look.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
+            settings.shot.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
         }
-        self.lighting.apply(&mut settings.lighting);
-        self.cones.apply(&mut settings.cone_tracing);
+        self.lighting.apply(&mut settings.method.lighting);
+        self.cones.apply(&mut settings.method.cone_tracing);
         Ok(settings)
     }
 
@@ -130,10 +130,9 @@ impl Common {
         NodeNames { hide: self.hide.clone(), only: self.only.clone(), lights: self.lighting.changes() }
     }
 
-    /// The settings that the file named by `--settings` holds, and its size if it is a picture.
-    pub fn settings_file(&self) -> anyhow::Result<(Settings, Option<[u32; 2]>)> {
-        let read = |file: &Path| export::read_settings(file);
-        Ok(self.settings.as_deref().map(read).transpose()?.unwrap_or_default())
+    /// The settings that the file named by `--settings` holds.
+    fn settings_file(&self) -> anyhow::Result<Settings> {
+        Ok(self.settings.as_deref().map(export::read_settings).transpose()?.unwrap_or_default())
     }
 
     fn discretize(&self, discretization: &mut Discretization) -> Result<(), Usage> {
@@ -141,14 +140,13 @@ impl Common {
         set(&mut discretization.filter, self.filter);
         set(&mut discretization.mode, self.mode);
         set(&mut discretization.anchor, self.anchor);
-        set(&mut discretization.dense_level, self.dense_level);
+        discretization.dense_level = self.dense_level.or(discretization.dense_level);
         discretization.span = self.span.or(discretization.span);
-        let checked = Settings { discretization: *discretization, ..Settings::default() }.check();
-        checked.map_err(Usage)?;
+        discretization.check().map_err(Usage)?;
         match self.dense_level {
-            Some(level) if level != discretization.dense_level() => Err(Usage(format!(
+            Some(level) if level > discretization.deepest_dense() => Err(Usage(format!(
                 "dense level {level} is not in 0 to {}: at a grid of {} the leaves are level {}",
-                discretization.dense_level(),
+                discretization.deepest_dense(),
                 discretization.grid,
                 discretization.depth()
             ))),
@@ -159,6 +157,6 @@ impl Common {
 
 impl Moment {
     pub fn apply(&self, settings: &mut Settings) {
-        set(&mut settings.motion.time_secs, self.time);
+        set(&mut settings.shot.motion.time_secs, self.time);
     }
 }

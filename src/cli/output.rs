@@ -1,5 +1,6 @@
 //! Standard output carries results alone; everything else goes to standard error.
 
+use std::collections::HashSet;
 use std::fmt;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -31,6 +32,16 @@ pub fn message(text: &str) {
 
 pub fn warnings(sentences: impl IntoIterator<Item = impl fmt::Display>) {
     sentences.into_iter().for_each(|sentence| message(&format!("warning: {sentence}")));
+}
+
+/// Warnings that were said, so that each is said once.
+#[derive(Default)]
+pub struct Told(HashSet<String>);
+
+impl Told {
+    pub fn tell<'a>(&mut self, sentences: impl IntoIterator<Item = &'a String>) {
+        warnings(sentences.into_iter().filter(|sentence| self.0.insert((*sentence).clone())));
+    }
 }
 
 /// A value's name in JSON.

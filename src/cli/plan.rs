@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use octolume::settings::{ColorBy, Settings};
+use octolume::settings::{ColorBy, MethodSettings, Settings, ShotSettings};
 
 use super::look_options::LookOptions;
 use super::options::{Common, Moment};
@@ -54,7 +54,7 @@ impl Plan {
     pub fn run(&self) -> anyhow::Result<()> {
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
-        self.look.apply(&mut settings.look);
+        self.look.apply(&mut settings.method.look);
         settings.check().map_err(Usage)?;
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         session.engine.request(&settings, NO_PICTURE)?;
@@ -63,6 +63,7 @@ impl Plan {
             change.apply(&mut settings);
             session.engine.request(&settings, NO_PICTURE)?;
         }
+        output::warnings(&session.engine.left_out());
         let plan = session.engine.plan();
         if self.json {
             return output::json(plan);
@@ -76,16 +77,17 @@ impl Plan {
 
 impl Change {
     fn apply(self, settings: &mut Settings) {
-        let Settings { discretization, motion, look, lighting, .. } = settings;
+        let ShotSettings { motion, camera, .. } = &mut settings.shot;
+        let MethodSettings { discretization, lighting, look, .. } = &mut settings.method;
         match self {
             Self::Still => {}
-            Self::Camera => look.camera.get_or_insert_default().orbit(0.1, 0.0),
+            Self::Camera => camera.get_or_insert_default().orbit(0.1, 0.0),
             Self::Time => motion.time_secs += 1.0 / 30.0,
             Self::Turn => motion.turn_degrees[1] += 1.0,
             Self::Filter => discretization.filter = discretization.filter.other(),
             Self::DenseLevel => {
-                let level = discretization.dense_level();
-                discretization.dense_level = if level == 0 { 1 } else { level - 1 };
+                let level = discretization.deepest_dense();
+                discretization.dense_level = Some(if level == 0 { 1 } else { level - 1 });
             }
             Self::Light => {
                 lighting.emission *= 0.5;

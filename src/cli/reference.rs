@@ -37,7 +37,7 @@ pub struct ReferenceOptions {
 impl ReferenceOptions {
     /// Is the view one that paths show? `is_named`: by an option, not by settings.
     pub fn choose_view(&self, settings: &mut Settings, is_named: bool) -> Result<(), Usage> {
-        let look = &mut settings.look;
+        let look = &mut settings.method.look;
         if look.view != View::Surfaces && !is_named {
             (look.view, look.surface) = (View::Surfaces, SurfaceView::Final);
         }
@@ -66,7 +66,7 @@ impl ReferenceOptions {
 }
 
 fn summary(film: &Film, settings: &Settings) -> String {
-    let term = Term::of(settings.look.surface, settings.lighting.bounces);
+    let term = Term::of(settings.method.look.surface, settings.method.lighting.bounces);
     let error = term.map(|term| film.standard_error(term)).unwrap_or_default();
     let percent = |share: f64| 100.0 * share;
     format!(
@@ -79,11 +79,11 @@ fn summary(film: &Film, settings: &Settings) -> String {
 }
 
 fn write(film: &Film, settings: &Settings, file: &Path) -> anyhow::Result<()> {
-    let part = settings.look.surface;
-    let light = film.shown(part, &settings.lighting).unwrap_or_default();
+    let part = settings.method.look.surface;
+    let light = film.shown(part, &settings.method.lighting).unwrap_or_default();
     if output::is_exr(file) {
         return Ok(export::write_exr(file, film.size_px(), &light)?);
     }
-    let picture = Display::new(&settings.look, part, &light).picture(&light, film.size_px());
+    let picture = Display::new(&settings.method.look, part, &light).picture(&light, film.size_px());
     Ok(export::write_png(file, &image::DynamicImage::from(picture).into_rgba8(), settings)?)
 }

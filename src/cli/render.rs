@@ -9,12 +9,12 @@ use octolume::settings::{Settings, View};
 use super::Usage;
 use super::look_options::LookOptions;
 use super::options::{Common, Moment};
-use super::output;
+use super::output::{self, Told};
 use super::reference::ReferenceOptions;
 use super::session::{self, Session};
 use super::values::{self, Frames, Size};
 
-/// Size of a picture where neither option nor settings picture tells.
+/// Size of a picture where neither option nor settings tell.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
 /// Draws a scene into a .png file, which carries its settings, or an .exr file of linear light
@@ -26,7 +26,7 @@ pub struct Render {
     /// on goes before its extension
     #[arg(short, long, value_name = "OUT.png|OUT.exr")]
     output: PathBuf,
-    /// Pixels; 1280x720, or as large as the picture given by --settings
+    /// Pixels; otherwise as --settings says, or 1280x720
     #[arg(long, value_name = "WxH")]
     size: Option<Size>,
     /// Draws frames A to B, both included, of the animation
@@ -48,13 +48,13 @@ pub struct Render {
 impl Render {
     pub fn run(&self) -> anyhow::Result<()> {
         let mut settings = self.settings()?;
-        let size_px = self.size_px()?;
+        let size_px = self.size_px(&settings);
         if self.reference.reference {
             return self.trace(&mut settings, size_px);
         }
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         for (file, time_secs) in self.pictures(&settings) {
-            settings.motion.time_secs = time_secs;
+            settings.shot.motion.time_secs = time_secs;
             draw(&mut session, &settings, size_px, &file)?;
         }
         Ok(())
@@ -64,8 +64,10 @@ impl Render {
     fn trace(&self, settings: &mut Settings, size_px: [u32; 2]) -> anyhow::Result<()> {
         let disk = self.common.disk_cache();
         let prepared = session::prepare_only(&self.scene, &self.common, disk.as_ref(), settings)?;
+        let mut told = Told::default();
         for (file, time_secs) in self.pictures(settings) {
-            settings.motion.time_secs = time_secs;
+            settings.shot.motion.time_secs = time_secs;
+            told.tell(&prepared.past_clip(&settings.shot.motion));
             self.reference.draw((&prepared, disk.as_ref()), settings, size_px, &file)?;
         }
         Ok(())
@@ -74,23 +76,20 @@ impl Render {
     fn settings(&self) -> anyhow::Result<Settings> {
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
-        self.look.apply(&mut settings.look);
+        self.look.apply(&mut settings.method.look);
         settings.check().map_err(Usage)?;
         if self.reference.reference {
             self.reference.choose_view(&mut settings, self.look.names_view())?;
         }
-        if output::is_exr(&self.output) && settings.look.view != View::Surfaces {
+        if output::is_exr(&self.output) && settings.method.look.view != View::Surfaces {
             let cause = "an .exr file holds linear light, which only views of surfaces give, such as --view final";
             return Err(Usage(cause.to_owned()).into());
         }
         Ok(settings)
     }
 
-    fn size_px(&self) -> anyhow::Result<[u32; 2]> {
-        match self.size {
-            Some(Size(size_px)) => Ok(size_px),
-            None => Ok(self.common.settings_file()?.1.unwrap_or(SIZE_PX)),
-        }
+    fn size_px(&self, settings: &Settings) -> [u32; 2] {
+        self.size.map(|Size(size_px)| size_px).or(settings.shot.size_px).unwrap_or(SIZE_PX)
     }
 
     /// Files to write, each with its time in seconds.
@@ -99,13 +98,13 @@ impl Render {
             (Some(Frames { first, last }), Some(fps)) => {
                 (first..=last).map(|frame| (numbered(&self.output, frame), f64::from(frame) / fps)).collect()
             }
-            _ => vec![(self.output.clone(), settings.motion.time_secs)],
+            _ => vec![(self.output.clone(), settings.shot.motion.time_secs)],
         }
     }
 }
 
 fn draw(session: &mut Session, settings: &Settings, size_px: [u32; 2], file: &Path) -> anyhow::Result<()> {
-    if settings.look.view == View::Ghost {
+    if settings.method.look.view == View::Ghost {
         session.take_exact(settings)?;
     }
     session.run(settings, size_px)?;

@@ -15,7 +15,7 @@ use octolume::settings::Settings;
 use octolume::stages::SHADERS;
 
 use super::options::Common;
-use super::output;
+use super::output::{self, Told};
 
 /// Shown when no scene is named.
 pub const DEFAULT_SCENE: &str = "courtyard";
@@ -28,11 +28,12 @@ pub struct Session {
     pub prepared: Arc<Prepared>,
     pub engine: Engine,
     disk: Option<DiskCache>,
+    told: Told,
 }
 
 impl Session {
-    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name. What the
-    /// options hide is added to the settings.
+    /// Opens and voxelizes a scene for the settings, and takes the adapter the options name. Which scene it is, and
+    /// what the options hide, is added to the settings.
     pub fn open(scene: &Path, common: &Common, settings: &mut Settings) -> anyhow::Result<Self> {
         Self::open_with(scene, common, common.disk_cache(), settings)
     }
@@ -47,7 +48,7 @@ impl Session {
         let mut engine = take_gpu(common)?;
         let prepared = prepare_only(scene, common, disk.as_ref(), settings)?;
         engine.set_prepared(Some(Arc::clone(&prepared)));
-        Ok(Self { prepared, engine, disk })
+        Ok(Self { prepared, engine, disk, told: Told::default() })
     }
 
     /// Voxelizes for other settings, keeping what still holds.
@@ -66,16 +67,16 @@ impl Session {
     /// Builds and draws what the settings ask for.
     pub fn run(&mut self, settings: &Settings, image_size_px: [u32; 2]) -> anyhow::Result<()> {
         self.engine.request(settings, image_size_px)?;
-        output::warnings(&self.engine.left_out());
+        self.told.tell(&self.engine.left_out());
         Ok(self.engine.run_to_end()?)
     }
 
     /// Voxelizes the posed mesh exactly: the truth for ghost and accuracy.
     pub fn take_exact(&mut self, settings: &Settings) -> anyhow::Result<()> {
         let prepared = &self.prepared;
-        let hidden = prepared.hidden(&settings.visibility)?;
+        let hidden = prepared.hidden(&settings.shot.visibility)?;
         let exact = output::with_progress("voxelizing the posed mesh", |progress| {
-            prepared.exact(&settings.motion, &hidden, progress)
+            prepared.exact(&settings.shot.motion, &hidden, progress)
         })?;
         output::warnings(&exact.warnings);
         self.engine.offer_exact(Arc::new(exact));
@@ -88,8 +89,8 @@ impl Session {
     }
 }
 
-/// Opens and voxelizes a scene, and says what there is to know about it. What the options hide, and the
-/// lights they change, are added to the settings.
+/// Opens and voxelizes a scene, and says what there is to know about it. Which it is, what the options hide, and
+/// the lights they change, are added to the settings.
 pub fn prepare_only(
     scene: &Path,
     common: &Common,
@@ -97,16 +98,16 @@ pub fn prepare_only(
     settings: &mut Settings,
 ) -> anyhow::Result<Arc<Prepared>> {
     let scene = open_scene(scene, &common.open_options())?;
+    settings.shot.scene = Some(scene.identity());
     let names = common.node_names();
-    output::warnings(&names.apply(&scene, &mut settings.visibility)?);
-    output::warnings(&names.change_lights(&scene, &mut settings.lighting)?);
-    settings.visibility.shown_nodes(&scene)?;
+    output::warnings(&names.apply(&scene, &mut settings.shot.visibility)?);
+    output::warnings(&names.change_lights(&scene, &mut settings.method.lighting)?);
+    settings.shot.visibility.shown_nodes(&scene)?;
     let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;
     output::warnings(&prepared.warnings);
     if disk.is_some() {
         output::message(&format!("{}, in {:.0} ms", prepared.origins, prepared.voxelize_ms));
     }
-    warn_of_time(&prepared, settings)?;
     Ok(prepared)
 }
 
@@ -127,22 +128,8 @@ fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
 }
 
 fn voxelize(scene: Arc<Scene>, settings: &Settings, stores: Stores) -> anyhow::Result<Arc<Prepared>> {
-    let prepared =
-        output::with_progress("voxelizing", |progress| prepare_with(scene, &settings.discretization, stores, progress));
+    let prepared = output::with_progress("voxelizing", |progress| {
+        prepare_with(scene, &settings.method.discretization, stores, progress)
+    });
     Ok(Arc::new(prepared?))
-}
-
-/// A clip holds its last pose after its end: said, because it looks like a stopped animation.
-fn warn_of_time(prepared: &Prepared, settings: &Settings) -> anyhow::Result<()> {
-    let time_secs = settings.motion.time_secs;
-    let scene = &prepared.scene;
-    match prepared.clip_index(&settings.motion)?.map(|clip| &scene.clips[clip]) {
-        Some(clip) if time_secs > clip.duration_secs => output::message(&format!(
-            "warning: clip \"{}\" ends at {} s; its last pose is shown",
-            clip.name, clip.duration_secs
-        )),
-        None if time_secs > 0.0 => output::message("warning: no clip is played, so the time changes nothing"),
-        _ => {}
-    }
-    Ok(())
 }

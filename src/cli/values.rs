@@ -4,6 +4,7 @@
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
+use octolume::settings::ShotSettings;
 use serde::de::value::Error as NameError;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
@@ -51,17 +52,15 @@ pub fn cell(text: &str) -> Result<[u32; 3], String> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size(pub [u32; 2]);
 
-/// Pixels along an edge that every adapter can draw.
-const MAX_EDGE_PX: u32 = 8192;
-
 impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let edge = |text: &str| text.parse().ok().filter(|px| (1..=MAX_EDGE_PX).contains(px));
+        let sides_px = ShotSettings::SIDES_PX;
+        let side = |text: &str| text.parse().ok().filter(|px| sides_px.contains(px));
         text.split_once('x')
-            .and_then(|(width, height)| Some(Self([edge(width)?, edge(height)?])))
-            .ok_or_else(|| format!("a size is WxH, both 1 to {MAX_EDGE_PX} pixels"))
+            .and_then(|(width, height)| Some(Self([side(width)?, side(height)?])))
+            .ok_or_else(|| format!("a size is WxH, both {} to {} pixels", sides_px.start(), sides_px.end()))
     }
 }
 

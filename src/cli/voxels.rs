@@ -43,7 +43,7 @@ impl Voxels {
         let write = self.writer()?;
         let mut settings = self.common.settings()?;
         self.moment.apply(&mut settings);
-        settings.look.view = View::Voxels;
+        settings.method.look.view = View::Voxels;
         settings.check().map_err(Usage)?;
         let (voxels, grid) = match self.source {
             Source::Moved => {
@@ -59,10 +59,11 @@ impl Voxels {
 
     fn exact(&self, settings: &mut Settings) -> anyhow::Result<(WorldVoxels, Grid)> {
         let prepared = prepare_only(&self.scene, &self.common, self.common.disk_cache().as_ref(), settings)?;
-        let hidden = prepared.hidden(&settings.visibility)?;
+        let hidden = prepared.hidden(&settings.shot.visibility)?;
         let surface = output::with_progress("voxelizing the posed mesh", |progress| {
-            prepared.exact_voxels(&settings.motion, &hidden, progress)
+            prepared.exact_voxels(&settings.shot.motion, &hidden, progress)
         })?;
+        output::warnings(&prepared.past_clip(&settings.shot.motion));
         output::warnings(&surface.warnings);
         Ok((exact_cells(&surface.voxels), prepared.grid))
     }

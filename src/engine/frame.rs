@@ -65,7 +65,7 @@ impl Frame {
         if runs(Part::SurfaceImage) {
             return Some(Textures::All);
         }
-        let draws = runs(Part::Picture) && self.request.settings().look.view == View::Mesh;
+        let draws = runs(Part::Picture) && self.request.settings().method.look.view == View::Mesh;
         (draws || runs(Part::ShadowMaps)).then_some(Textures::BaseColor)
     }
 }

@@ -11,6 +11,7 @@
 mod error;
 mod facts;
 mod frame;
+mod misfits;
 mod parts;
 mod pool;
 mod read;

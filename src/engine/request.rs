@@ -7,6 +7,8 @@ use glam::DVec3;
 
 use super::EngineError;
 use super::facts::facts;
+use super::misfits::misfits;
+use super::shadow_layouts::ShadowLayouts;
 use crate::data::grid::Grid;
 use crate::digest::Digest;
 use crate::lights::{self, PosedLight, posed_lights};
@@ -47,8 +49,7 @@ pub struct Shot {
 pub struct Method {
     pub asked: Asked,
     pub lights: Vec<PosedLight>,
-    /// A layout a light.
-    pub shadow_maps: Vec<ShadowParams>,
+    pub shadow_maps: ShadowLayouts,
     pub matrices: FrameMatrices,
 }
 
@@ -59,14 +60,7 @@ impl Method {
 
     /// Radiance from all directions, as kernels take it.
     pub fn sky_nits(&self) -> [f32; 3] {
-        self.settings().lighting.sky_nits.map(|channel| channel as f32)
-    }
-
-    /// The light whose shadow map is wanted does not shine: the last one's is shown.
-    pub fn missing_map(&self) -> Option<String> {
-        let (number, last) = (self.settings().look.shadow_map, self.lights.len().checked_sub(1)?);
-        (self.settings().look.view == View::ShadowMap && number > last)
-            .then(|| format!("there is no shadow map {number}: they are 0 to {last}, and {last} is shown"))
+        self.settings().method.lighting.sky_nits.map(|channel| channel as f32)
     }
 }
 
@@ -78,12 +72,12 @@ impl Request {
         (settings, size_px): (&Settings, [u32; 2]),
         exacts: &[Arc<ExactVoxels>],
     ) -> Result<Self, EngineError> {
-        check_object_numbers(prepared, &settings.look)?;
+        check_object_numbers(prepared, &settings.method.look)?;
         let shot = Shot::new(prepared, settings, size_px, exacts)?;
         let mut methods = vec![Method::new(prepared, &shot, settings, WantedFor::Picture)?];
-        if settings.look.accuracy {
+        if settings.method.look.accuracy {
             let mut other = settings.clone();
-            other.discretization.filter = settings.discretization.filter.other();
+            other.method.discretization.filter = settings.method.discretization.filter.other();
             methods.push(Method::new(prepared, &shot, &other, WantedFor::Comparison)?);
         }
         Ok(Self { prepared: Arc::clone(prepared), shot, methods })
@@ -109,7 +103,7 @@ impl Request {
     /// Nothing of the scene is in the picture: all of it is hidden, or outside the grid.
     pub fn shows_nothing(&self) -> bool {
         let scene = &self.shown().asked.scene;
-        match self.settings().look.view {
+        match self.settings().method.look.view {
             View::Mesh | View::Surfaces => scene.triangles == 0,
             View::ShadowMap => scene.triangles == 0 || scene.lights == 0,
             View::Voxels | View::Ghost | View::Slice => scene.voxels() == 0,
@@ -126,17 +120,17 @@ impl Request {
         [0.0, distances.fold(0.0, f64::max)]
     }
 
-    /// Objects that the pose cannot show, lights that are nowhere in it, and a shadow map that is not there, a
-    /// sentence each.
+    /// Objects that the pose cannot show, lights that are nowhere in it, and settings that do not fit the scene or the
+    /// grid, a sentence each.
     pub fn left_out(&self) -> Vec<String> {
         let (prepared, method) = (&self.prepared, self.shown());
         let name = |&object: &usize| &prepared.objects[object].object.name;
         let objects = method.matrices.left_out.iter().map(name);
         let objects =
             objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite"));
-        let lighting = &self.settings().lighting;
+        let lighting = &self.settings().method.lighting;
         let lost = lights::left_out(&prepared.scene, &self.shot.pose, lighting, &self.shot.shown);
-        objects.chain(lost).chain(method.missing_map()).collect()
+        objects.chain(lost).chain(misfits(prepared, &method.asked, &method.shadow_maps)).collect()
     }
 }
 
@@ -152,9 +146,9 @@ impl Shot {
         size_px: [u32; 2],
         exacts: &[Arc<ExactVoxels>],
     ) -> Result<Self, EngineError> {
-        let hidden = prepared.hidden(&settings.visibility)?;
-        let shown = settings.visibility.shown_nodes(&prepared.scene)?;
-        let pose = Arc::new(prepared.pose(&settings.motion)?);
+        let hidden = prepared.hidden(&settings.shot.visibility)?;
+        let shown = settings.shot.visibility.shown_nodes(&prepared.scene)?;
+        let pose = Arc::new(prepared.pose(&settings.shot.motion)?);
         let placed = prepared.placed(&pose, &hidden);
         // A picture has at least one pixel.
         let size_px = size_px.map(|side| side.max(1));
@@ -166,14 +160,15 @@ impl Shot {
 
 impl Method {
     fn new(prepared: &Prepared, shot: &Shot, settings: &Settings, wanted_for: WantedFor) -> Result<Self, EngineError> {
-        let (lighting, anchor) = (&settings.lighting, settings.discretization.anchor);
-        let matrices = prepared.fold((&settings.motion, &shot.pose), anchor, &shot.hidden);
+        let (lighting, anchor) = (&settings.method.lighting, settings.method.discretization.anchor);
+        let matrices = prepared.fold((&settings.shot.motion, &shot.pose), anchor, &shot.hidden);
         let emits = prepared.emits(lighting);
         let lights = posed_lights(&prepared.scene, &shot.pose, lighting, &shot.shown, emits);
-        let shadow_maps = super::shadow_layouts::layouts(prepared, &lights, settings);
-        let facts = facts(prepared, &matrices, &shot.hidden, settings.cone_tracing.glossy_roughness);
+        let shadow_maps = ShadowLayouts::new(prepared, &lights, settings);
+        let facts = facts(prepared, &matrices, &shot.hidden, settings.method.cone_tracing.glossy_roughness);
         let scene = SceneFacts { lights: lights.len() as u32, picture_px: shot.size_px, ..facts };
-        let contents = contents(prepared, shot, (&matrices, &light_params(prepared, &lights, lighting), &shadow_maps));
+        let contents =
+            contents(prepared, shot, (&matrices, &light_params(prepared, &lights, lighting), &shadow_maps.maps));
         let asked = Asked { scene, settings: settings.clone(), contents, wanted_for };
         Ok(Self { asked, lights, shadow_maps, matrices })
     }

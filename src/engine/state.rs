@@ -163,8 +163,8 @@ impl Engine {
         self.wanted.as_ref().is_some_and(|wanted| wanted.shows_nothing())
     }
 
-    /// Objects that the requested pose cannot show, lights that are nowhere in it, and a shadow map that is not there, a
-    /// sentence each.
+    /// Objects that the requested pose cannot show, lights that are nowhere in it, and settings that do not fit the
+    /// scene or the grid, a sentence each.
     pub fn left_out(&self) -> Vec<String> {
         self.wanted.as_ref().map_or(Vec::new(), |wanted| wanted.left_out())
     }
@@ -181,7 +181,7 @@ impl Engine {
 
     /// The moment that the picture on screen shows.
     pub fn moment_on_screen(&self) -> Option<&MotionSettings> {
-        self.on_screen.as_ref().map(|on_screen| &on_screen.request.settings().motion)
+        self.on_screen.as_ref().map(|on_screen| &on_screen.request.settings().shot.motion)
     }
 
     /// The settings that the picture on screen was made with.

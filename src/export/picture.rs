@@ -12,8 +12,10 @@ use crate::settings::Settings;
 /// Keyword of the chunk that carries the settings.
 const KEYWORD: &str = "octolume-settings";
 
-/// Writes a picture with 8-bit sRGB colours and the settings that made it.
+/// Writes a picture with 8-bit sRGB colours and the settings that made it, its size among them.
 pub fn write_png(file: &Path, picture: &RgbaImage, settings: &Settings) -> Result<(), ExportError> {
+    let mut settings = settings.clone();
+    settings.shot.size_px = Some(picture.dimensions().into());
     let settings = settings.to_json().map_err(|error| ExportError::new(file, error))?;
     let bytes = encode(picture, settings).map_err(|error| ExportError::new(file, error))?;
     write_file(file, &bytes)
@@ -32,17 +34,18 @@ fn encode(picture: &RgbaImage, settings: String) -> Result<Vec<u8>, png::Encodin
     Ok(bytes)
 }
 
-/// Reads settings from a JSON file or from a picture of [`write_png`], whose size in pixels comes
-/// with them.
-pub fn read_settings(file: &Path) -> Result<(Settings, Option<[u32; 2]>), ExportError> {
+/// Reads settings from a JSON file or from a picture of [`write_png`]. Where a picture's settings do not tell its size,
+/// as in format 1, they get it from the picture.
+pub fn read_settings(file: &Path) -> Result<Settings, ExportError> {
     let failed = |cause: String| ExportError::new(file, cause);
     let bytes = std::fs::read(file).map_err(|error| failed(error.to_string()))?;
     let (json, size_px) = match bytes.starts_with(b"\x89PNG") {
         true => settings_of_png(&bytes).map_err(failed)?,
         false => (String::from_utf8(bytes).map_err(|_| failed("neither JSON nor PNG".to_owned()))?, None),
     };
-    let settings = Settings::from_json(&json).map_err(failed)?;
-    Ok((settings, size_px))
+    let mut settings = Settings::from_json(&json).map_err(failed)?;
+    settings.shot.size_px = settings.shot.size_px.or(size_px);
+    Ok(settings)
 }
 
 fn settings_of_png(bytes: &[u8]) -> Result<(String, Option<[u32; 2]>), String> {
@@ -60,7 +63,7 @@ mod tests {
     use image::Rgba;
 
     use super::*;
-    use crate::scene::{LightKind, OrbitCamera};
+    use crate::scene::{LightKind, OrbitCamera, SceneIdentity};
     use crate::settings::lighting::{AddedLight, LightEdit, Shadows, SunShines};
     use crate::settings::{ColorBy, Filter, View};
 
@@ -70,10 +73,10 @@ mod tests {
 
     fn settings() -> Settings {
         let mut settings = Settings::default();
-        settings.look.view = View::Ghost;
-        settings.look.color = ColorBy::Occupancy;
-        settings.motion.clip = Some("Läufer".to_owned());
-        settings.motion.time_secs = 0.1;
+        settings.method.look.view = View::Ghost;
+        settings.method.look.color = ColorBy::Occupancy;
+        settings.shot.motion.clip = Some("Läufer".to_owned());
+        settings.shot.motion.time_secs = 0.1;
         settings
     }
 
@@ -82,7 +85,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("shot.png");
         write_png(&file, &picture(), &settings()).unwrap();
-        assert_eq!(read_settings(&file).unwrap(), (settings(), Some([5, 3])));
+        let mut expected = settings();
+        expected.shot.size_px = Some([5, 3]);
+        assert_eq!(read_settings(&file).unwrap(), expected);
         assert_eq!(image::open(&file).unwrap().to_rgba8(), picture());
     }
 
@@ -90,23 +95,26 @@ mod tests {
     #[test]
     fn what_was_written_before_is_read_as_it_was_meant() {
         let saved = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/saved");
-        let (settings, size_px) = read_settings(&saved.join("format-1.png")).unwrap();
-        assert_eq!(size_px, Some([96, 54]));
-        assert_eq!(read_settings(&saved.join("format-1.json")).unwrap(), (settings.clone(), None));
+        let read = |name: &str| read_settings(&saved.join(name)).unwrap();
         let mut expected = Settings::default();
-        (expected.discretization.grid, expected.discretization.dense_level) = (64, 3);
-        expected.discretization.filter = Filter::Nearest;
-        (expected.motion.time_secs, expected.motion.turn_degrees) = (1.25, [0.0, 20.0, 0.0]);
-        (expected.look.color, expected.look.exposure_stops) = (ColorBy::Radiance, Some(-1.0));
+        (expected.method.discretization.grid, expected.method.discretization.dense_level) = (64, Some(3));
+        expected.method.discretization.filter = Filter::Nearest;
+        (expected.shot.motion.time_secs, expected.shot.motion.turn_degrees) = (1.25, [0.0, 20.0, 0.0]);
+        (expected.method.look.color, expected.method.look.exposure_stops) = (ColorBy::Radiance, Some(-1.0));
         let (eye, target) = (DVec3::new(6.0, 4.0, 9.0), DVec3::new(0.0, 1.0, 0.0));
-        expected.look.camera = Some(OrbitCamera { eye, target, fov_y_degrees: 45.0 });
-        let lighting = &mut expected.lighting;
+        expected.shot.camera = Some(OrbitCamera { eye, target, fov_y_degrees: 45.0 });
+        let lighting = &mut expected.method.lighting;
         lighting.sun.shines = SunShines::Never;
         (lighting.sky_nits, lighting.shadows) = ([0.5, 0.7, 1.0], Shadows::March);
         let light = LightEdit { intensity: 80.0, ..LightEdit::new(LightKind::POINT) };
         let lamp = AddedLight { position: [0.0, 3.0, 0.0], light, ..AddedLight::new("light 1".to_owned(), light.kind) };
         lighting.added = vec![lamp];
-        assert_eq!(settings, expected);
+        assert_eq!(read("format-1.json"), expected);
+        expected.shot.size_px = Some([96, 54]);
+        assert_eq!(read("format-1.png"), expected, "a picture tells its size");
+        let digest = serde_json::from_str(r#""399fa1309a4732b56ca45a94d3cbcb00""#).unwrap();
+        expected.shot.scene = Some(SceneIdentity { source: "courtyard".to_owned(), digest: Some(digest) });
+        assert_eq!((read("format-2.json"), read("format-2.png")), (expected.clone(), expected));
     }
 
     #[test]

@@ -76,11 +76,11 @@ impl Asked {
 
     /// A picture of this view is wanted.
     pub fn shows(&self, view: View) -> bool {
-        self.settings.look.view == view && self.wanted_for == WantedFor::Picture
+        self.settings.method.look.view == view && self.wanted_for == WantedFor::Picture
     }
 
     /// Voxels are compared with the exact ones of the pose.
     pub(super) fn compares(&self) -> bool {
-        self.settings.look.accuracy || self.wanted_for == WantedFor::Comparison
+        self.settings.method.look.accuracy || self.wanted_for == WantedFor::Comparison
     }
 }

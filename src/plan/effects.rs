@@ -16,8 +16,8 @@ pub struct ConesAsked {
 
 impl ConesAsked {
     pub fn new(asked: &Asked) -> Self {
-        let cones = &asked.settings.cone_tracing;
-        let surface = asked.settings.look.surface;
+        let cones = &asked.settings.method.cone_tracing;
+        let surface = asked.settings.method.look.surface;
         let ask = |reasons: &[(bool, &'static str)]| match reasons.iter().find(|(applies, _)| *applies) {
             Some((_, reason)) => Err(*reason),
             None => Ok(()),
@@ -38,7 +38,7 @@ impl ConesAsked {
             occlusion: ask(&[
                 elsewhere,
                 (!is_guessed && !is_shown, "occlusion is not looked at"),
-                (!is_shown && !asked.settings.lighting.has_sky(), "no sky to occlude"),
+                (!is_shown && !asked.settings.method.lighting.has_sky(), "no sky to occlude"),
             ]),
             specular: ask(&[
                 elsewhere,
@@ -77,26 +77,27 @@ fn looked_at(surface: SurfaceView) -> (bool, bool) {
 
 /// Whether the view shows what lights send without a detour.
 pub(super) fn shows_direct(asked: &Asked) -> bool {
-    asked.shows(View::Surfaces) && matches!(asked.settings.look.surface, SurfaceView::Final | SurfaceView::Direct)
+    asked.shows(View::Surfaces)
+        && matches!(asked.settings.method.look.surface, SurfaceView::Final | SurfaceView::Direct)
 }
 
 /// Light that surfaces get straight from lights asks the octree what is in between.
 pub(super) fn marches_shadows(asked: &Asked) -> bool {
-    asked.scene.lights > 0 && asked.settings.lighting.shadows == Shadows::March && shows_direct(asked)
+    asked.scene.lights > 0 && asked.settings.method.lighting.shadows == Shadows::March && shows_direct(asked)
 }
 
 pub(super) fn emits(asked: &Asked) -> bool {
-    asked.scene.emissive_voxels > 0 && asked.settings.lighting.emission > 0.0
+    asked.scene.emissive_voxels > 0 && asked.settings.method.lighting.emission > 0.0
 }
 
 pub(super) fn is_lit(asked: &Asked) -> bool {
-    asked.scene.lights > 0 || asked.settings.lighting.has_sky() || emits(asked)
+    asked.scene.lights > 0 || asked.settings.method.lighting.has_sky() || emits(asked)
 }
 
 /// The store is read for its opacity alone.
 pub fn only_opacity(asked: &Asked) -> bool {
-    match asked.settings.look.view {
-        View::Slice => asked.settings.look.slice.value == SliceValue::Occupancy,
+    match asked.settings.method.look.view {
+        View::Slice => asked.settings.method.look.slice.value == SliceValue::Occupancy,
         View::Surfaces => !ConesAsked::new(asked).any_radiance(),
         View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => false,
     }

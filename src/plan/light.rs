@@ -11,7 +11,7 @@ const ONLY_OPACITY: &str = "only opacity is looked at";
 
 /// Why the octree keeps no light, if so. Slices and cones sample opacity from the same store.
 pub(super) fn store_skipped(asked: &Asked) -> Option<&'static str> {
-    let look = &asked.settings.look;
+    let look = &asked.settings.method.look;
     let unread = match look.view {
         _ if asked.wanted_for == WantedFor::Comparison => Some("light is not looked at"),
         View::Slice => None,
@@ -33,7 +33,7 @@ pub(super) fn emission(asked: &Asked, keys: &Keys) -> Wanted {
 
 pub(super) fn shadow_maps(asked: &Asked) -> Wanted {
     let unread = if shows_direct(asked) { None } else { store_skipped(asked).or(dark(asked)) };
-    let unmapped = match asked.settings.lighting.shadows {
+    let unmapped = match asked.settings.method.lighting.shadows {
         _ if asked.shows(View::ShadowMap) => None,
         Shadows::Map => unread,
         Shadows::March => unread.or(Some("shadows are marched")),
@@ -46,6 +46,11 @@ pub(super) fn shadow_maps(asked: &Asked) -> Wanted {
     Ok(key.digest(moved, asked.contents.placed).build())
 }
 
+/// Somebody reads shadow maps, and something throws shadows.
+pub fn makes_shadow_maps(asked: &Asked) -> bool {
+    shadow_maps(asked).is_ok()
+}
+
 /// Where opacity is enough, the store of radiance serves too.
 pub(super) fn light(asked: &Asked, keys: &Keys, held: &Held) -> Wanted {
     unless(store_skipped(asked))?;
@@ -54,11 +59,11 @@ pub(super) fn light(asked: &Asked, keys: &Keys, held: &Held) -> Wanted {
         return Ok(with_radiance);
     }
     let key = from_octree(Key::of(Part::Light), "voxels moved", keys)?.method("light is looked at", &false);
-    Ok(key.method("another opacity", &asked.settings.lighting.opacity).build())
+    Ok(key.method("another opacity", &asked.settings.method.lighting.opacity).build())
 }
 
 fn radiance(asked: &Asked, keys: &Keys) -> Wanted {
-    let lighting = &asked.settings.lighting;
+    let lighting = &asked.settings.method.lighting;
     let changed = "lighting changed";
     let key = from_octree(Key::of(Part::Light), "voxels moved", keys)?.method("light is looked at", &true);
     let key = key.method("another opacity", &lighting.opacity).digest(changed, asked.contents.lights);
@@ -77,7 +82,7 @@ fn radiance(asked: &Asked, keys: &Keys) -> Wanted {
 }
 
 pub(super) fn irradiance(asked: &Asked, keys: &Keys) -> Wanted {
-    let look = &asked.settings.look;
+    let look = &asked.settings.method.look;
     let is_looked_at = match look.view {
         View::Voxels => look.color == ColorBy::Irradiance,
         View::Slice => look.slice.value == SliceValue::Irradiance,
@@ -91,7 +96,7 @@ pub(super) fn irradiance(asked: &Asked, keys: &Keys) -> Wanted {
 
 /// Why a pass of the light that is made is left out, if so.
 pub(super) fn left_out(pass: Pass, asked: &Asked) -> Option<&'static str> {
-    let lighting = &asked.settings.lighting;
+    let lighting = &asked.settings.method.lighting;
     let because = |reason| dark(asked).or(reason);
     match pass {
         Pass::Illuminate => because((asked.scene.lights == 0).then_some("no light in the scene")),

@@ -34,11 +34,12 @@ pub use effects::{ConesAsked, only_opacity};
 pub use held::Held;
 pub use key::{Key, KeyBuilder};
 pub use keys::Keys;
+pub use light::makes_shadow_maps;
 pub use part::Part;
 pub use pass::Pass;
 pub use rows::{Row, State};
 pub use views::{light_shown, shows_light, tells_mean_light};
-pub use voxels::layout_of;
+pub use voxels::{builds_octree, layout_of};
 
 /// A part that a frame makes.
 #[derive(Clone, Debug)]

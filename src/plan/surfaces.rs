@@ -19,7 +19,7 @@ pub(super) fn image(asked: &Asked) -> Wanted {
     let key = key.digest("camera or objects moved", asked.contents.placed);
     let key = key.shot("another size", &asked.scene.picture_px);
     // Nothing depends on it where nothing emits.
-    let emission = (asked.scene.emissive_voxels > 0).then_some(asked.settings.lighting.emission);
+    let emission = (asked.scene.emissive_voxels > 0).then_some(asked.settings.method.lighting.emission);
     Ok(key.method("lighting changed", &emission).build())
 }
 
@@ -30,7 +30,7 @@ fn from_image(part: Part, keys: &Keys) -> Result<KeyBuilder, &'static str> {
 pub(super) fn direct(asked: &Asked, keys: &Keys) -> Wanted {
     let key = from_image(Part::DirectLight, keys)?;
     unless((!shows_direct(asked)).then_some("not looked at"))?;
-    let (lighting, changed) = (&asked.settings.lighting, "lights or shadows changed");
+    let (lighting, changed) = (&asked.settings.method.lighting, "lights or shadows changed");
     let key = key.digest(changed, asked.contents.lights).method(changed, &lighting.shadows);
     let is_lit = asked.scene.lights > 0;
     Ok(match lighting.shadows {
@@ -48,7 +48,7 @@ pub(super) fn direct(asked: &Asked, keys: &Keys) -> Wanted {
 fn from_cones(part: Part, asked: &Asked, keys: &Keys) -> Result<KeyBuilder, &'static str> {
     let key = from_image(part, keys)?;
     unless((asked.scene.voxels() == 0).then_some("no voxels in the grid"))?;
-    Ok(key.method("the sky changed", &asked.settings.lighting.sky_nits))
+    Ok(key.method("the sky changed", &asked.settings.method.lighting.sky_nits))
 }
 
 fn through_octree(key: KeyBuilder, keys: &Keys) -> Result<KeyBuilder, &'static str> {
@@ -63,7 +63,7 @@ pub(super) fn diffuse(asked: &Asked, keys: &Keys) -> Wanted {
     let changed = "light or cones changed";
     // What specular cones are set to does not matter.
     let ConeTracing { specular, glossy_roughness, .. } = ConeTracing::default();
-    let set = ConeTracing { specular, glossy_roughness, ..asked.settings.cone_tracing };
+    let set = ConeTracing { specular, glossy_roughness, ..asked.settings.method.cone_tracing };
     let key = key.method(changed, &set).method(changed, &(cones.radiance.is_ok(), cones.occlusion.is_ok()));
     let links = followed(set.lookup).and_then(|part| Some((part, keys.get(part)?)));
     let key = links.into_iter().fold(key, |key, (part, links)| key.input(changed, part, links));
@@ -74,7 +74,7 @@ pub(super) fn glossy_tiles(asked: &Asked, keys: &Keys) -> Wanted {
     let key = from_image(Part::GlossyTiles, keys)?;
     unless((asked.scene.voxels() == 0).then_some("no voxels in the grid"))?;
     ConesAsked::new(asked).specular?;
-    let cones = &asked.settings.cone_tracing;
+    let cones = &asked.settings.method.cone_tracing;
     Ok(key.method("light or cones changed", &(cones.indirect_px, cones.glossy_roughness)).build())
 }
 
@@ -82,7 +82,7 @@ pub(super) fn specular(asked: &Asked, keys: &Keys) -> Wanted {
     let key = from_cones(Part::SpecularLight, asked, keys)?;
     let tiles = keys.wanted(Part::GlossyTiles)?;
     let changed = "light or cones changed";
-    let set = &asked.settings.cone_tracing;
+    let set = &asked.settings.method.cone_tracing;
     let key = key.method(changed, &(set.start_voxels, set.step_diameters, set.sampling));
     Ok(through_octree(key, keys)?.input(changed, Part::GlossyTiles, tiles).build())
 }
@@ -93,13 +93,13 @@ pub(super) fn composed(asked: &Asked, keys: &Keys) -> Wanted {
     let terms = [Part::DirectLight, Part::DiffuseLight, Part::SpecularLight];
     let terms = terms.into_iter().filter_map(|part| Some((part, keys.get(part)?)));
     let key = terms.fold(from_image(Part::ComposedLight, keys)?, |key, (part, term)| key.input(changed, part, term));
-    let key = key.method("another part of the light is shown", &settings.look.surface);
-    Ok(key.method(changed, &(settings.lighting.sky_nits, settings.cone_tracing.glossy_roughness)).build())
+    let key = key.method("another part of the light is shown", &settings.method.look.surface);
+    Ok(key.method(changed, &(settings.method.lighting.sky_nits, settings.method.cone_tracing.glossy_roughness)).build())
 }
 
 pub(super) fn exposure(asked: &Asked, keys: &Keys) -> Wanted {
     let composed = keys.wanted(Part::ComposedLight)?;
-    let look = &asked.settings.look;
+    let look = &asked.settings.method.look;
     unless((!look.surface.is_light()).then_some("no light is shown"))?;
     unless(look.exposure_stops.map(|_| "the exposure is set"))?;
     Ok(Key::of(Part::Exposure).input("a part of the picture is new", Part::ComposedLight, composed).build())
@@ -107,10 +107,10 @@ pub(super) fn exposure(asked: &Asked, keys: &Keys) -> Wanted {
 
 /// Why a pass of a part that is made is left out, if so.
 pub(super) fn left_out(pass: Pass, asked: &Asked) -> Option<&'static str> {
-    let cones = &asked.settings.cone_tracing;
+    let cones = &asked.settings.method.cone_tracing;
     let picture_px = asked.scene.picture_px;
     let unlit = (asked.scene.lights == 0).then_some("no light in the scene");
-    let marches = asked.settings.lighting.shadows == Shadows::March;
+    let marches = asked.settings.method.lighting.shadows == Shadows::March;
     match pass {
         Pass::LightSurfaces => unlit.or(marches.then_some("shadows are marched")),
         Pass::LightByMarching => unlit.or((!marches).then_some("shadows are not marched")),

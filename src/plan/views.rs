@@ -35,12 +35,12 @@ pub(super) fn comparison(asked: &Asked, keys: &Keys) -> Wanted {
 
 /// The voxels are drawn in the light that the octree holds.
 pub fn shows_light(asked: &Asked) -> bool {
-    asked.shows(View::Voxels) && asked.settings.look.color.is_light() && store_skipped(asked).is_none()
+    asked.shows(View::Voxels) && asked.settings.method.look.color.is_light() && store_skipped(asked).is_none()
 }
 
 /// What draws the picture.
 fn drawn_by(asked: &Asked) -> Pass {
-    match asked.settings.look.view {
+    match asked.settings.method.look.view {
         View::Voxels if shows_light(asked) => Pass::MarchLight,
         View::Voxels => Pass::MarchVoxels,
         View::Mesh => Pass::DrawMesh,
@@ -57,13 +57,14 @@ pub(super) fn not_drawn_by(pass: Pass, asked: &Asked) -> Option<&'static str> {
         (drawn_by(asked) != pass || asked.wanted_for != WantedFor::Picture).then_some("another view is shown");
     let octree = octree_skipped(asked);
     let bare = (asked.scene.triangles == 0).then_some("no triangles");
-    let view = asked.settings.look.view;
+    let view = asked.settings.method.look.view;
     match pass {
         Pass::MarchVoxels => {
             octree.or((view == View::Voxels && elsewhere.is_some()).then_some("light is shown")).or(elsewhere)
         }
         Pass::MarchLight => octree
-            .or((view != View::Voxels || !asked.settings.look.color.is_light()).then_some("colour is not by light"))
+            .or((view != View::Voxels || !asked.settings.method.look.color.is_light())
+                .then_some("colour is not by light"))
             .or(store_skipped(asked))
             .or(elsewhere),
         Pass::SliceOctree => octree.or(elsewhere),
@@ -104,7 +105,7 @@ pub(super) fn picture(asked: &Asked, keys: &Keys) -> Wanted {
     unless(not_drawn_by(pass, asked))?;
     let key = Key::of(Part::Picture).digest("the camera moved", asked.contents.camera);
     let key = key.shot("another size", &asked.scene.picture_px);
-    let key = key.shot("another look", &LookOfPicture::of(&asked.settings.look));
+    let key = key.shot("another look", &LookOfPicture::of(&asked.settings.method.look));
     Ok(shown_parts(pass, asked, keys, key)?.build())
 }
 
@@ -135,7 +136,7 @@ fn shown_parts(pass: Pass, asked: &Asked, keys: &Keys, key: KeyBuilder) -> Resul
         _ => {
             let key = part(key, "surfaces changed", Part::SurfaceImage)?;
             let key = part(key, "a part of the picture is new", Part::ComposedLight)?;
-            let key = key.method("the sky changed", &asked.settings.lighting.sky_nits);
+            let key = key.method("the sky changed", &asked.settings.method.lighting.sky_nits);
             Ok(match keys.get(Part::Exposure) {
                 Some(exposure) => key.input("another exposure", Part::Exposure, exposure),
                 None => key,
@@ -146,7 +147,7 @@ fn shown_parts(pass: Pass, asked: &Asked, keys: &Keys, key: KeyBuilder) -> Resul
 
 /// Which averaged light a view reads.
 pub fn light_shown(asked: &Asked) -> Part {
-    let look = &asked.settings.look;
+    let look = &asked.settings.method.look;
     let is_irradiance = match look.view {
         View::Slice => look.slice.value == SliceValue::Irradiance,
         _ => look.color == ColorBy::Irradiance,

@@ -11,13 +11,18 @@ pub(super) fn octree_skipped(asked: &Asked) -> Option<&'static str> {
     if asked.scene.voxels() == 0 {
         return Some("no voxels in the grid");
     }
-    match asked.settings.look.view {
+    match asked.settings.method.look.view {
         _ if asked.compares() => None,
         View::Mesh => Some("the mesh view shows no voxels"),
         View::ShadowMap => Some("the shadow map shows no voxels"),
         View::Surfaces if !reads_octree(asked) => Some("no cone and no shadow asks the octree"),
         View::Surfaces | View::Voxels | View::Ghost | View::Slice => None,
     }
+}
+
+/// Something calls for an octree, and there is something to make it of.
+pub fn builds_octree(asked: &Asked) -> bool {
+    octree_skipped(asked).is_none()
 }
 
 fn reads_octree(asked: &Asked) -> bool {
@@ -37,7 +42,7 @@ pub(super) fn caches(asked: &Asked) -> Wanted {
 pub(super) fn pages(asked: &Asked, keys: &Keys) -> Wanted {
     let key = Key::of(Part::Pages).input("new caches", Part::Caches, keys.wanted(Part::Caches)?);
     let key = key.digest("objects entered or left the grid", asked.contents.residents);
-    Ok(key.method("another anchor", &asked.settings.discretization.anchor).build())
+    Ok(key.method("another anchor", &asked.settings.method.discretization.anchor).build())
 }
 
 pub(super) fn rigid(asked: &Asked, keys: &Keys) -> Wanted {
@@ -68,9 +73,9 @@ pub(super) fn from_octree(key: KeyBuilder, changed: &'static str, keys: &Keys) -
 }
 
 pub(super) fn masks(asked: &Asked, keys: &Keys) -> Wanted {
-    let discretization = &asked.settings.discretization;
+    let discretization = &asked.settings.method.discretization;
     let key = from_voxels(Key::of(Part::Masks), keys)?.method("another filter", &discretization.filter);
-    Ok(key.method("another dense level", &(discretization.depth(), discretization.dense_level())).build())
+    Ok(key.method("another dense level", &(discretization.depth(), discretization.deepest_dense())).build())
 }
 
 pub(super) fn topology(keys: &Keys) -> Wanted {
@@ -85,7 +90,7 @@ pub(super) fn payload(keys: &Keys) -> Wanted {
 
 pub(super) fn object_numbers(asked: &Asked, keys: &Keys) -> Wanted {
     let octree = from_octree(Key::of(Part::ObjectNumbers), "colour by object", keys)?;
-    let is_looked_at = asked.shows(View::Voxels) && asked.settings.look.color == ColorBy::Object;
+    let is_looked_at = asked.shows(View::Voxels) && asked.settings.method.look.color == ColorBy::Object;
     unless((!is_looked_at).then_some("colour is not by object"))?;
     Ok(from_voxels(octree, keys)?.build())
 }
@@ -101,9 +106,9 @@ pub(super) fn followed(lookup: Lookup) -> Option<Part> {
 
 /// The way of look-up whose pointers the picture follows.
 pub(super) fn lookup(asked: &Asked) -> Lookup {
-    match asked.settings.look.view {
-        View::Slice => asked.settings.look.slice.lookup,
-        View::Surfaces if ConesAsked::new(asked).any() => asked.settings.cone_tracing.lookup,
+    match asked.settings.method.look.view {
+        View::Slice => asked.settings.method.look.slice.lookup,
+        View::Surfaces if ConesAsked::new(asked).any() => asked.settings.method.cone_tracing.lookup,
         View::Surfaces | View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => Lookup::Ranks,
     }
 }
@@ -115,7 +120,7 @@ pub fn layout_of(part: Part) -> PointerLayout {
 
 /// The window draws and follows pointers of this part.
 pub(super) fn links_are_shown(part: Part, asked: &Asked) -> bool {
-    part == Part::BlockLinks && asked.settings.look.pointers && asked.wanted_for == WantedFor::Picture
+    part == Part::BlockLinks && asked.settings.method.look.pointers && asked.wanted_for == WantedFor::Picture
 }
 
 pub(super) fn links(part: Part, asked: &Asked, keys: &Keys) -> Wanted {
@@ -129,7 +134,7 @@ pub(super) fn links(part: Part, asked: &Asked, keys: &Keys) -> Wanted {
 
 /// Why a pass of a part that is made is left out, if so.
 pub(super) fn left_out(pass: Pass, asked: &Asked) -> Option<&'static str> {
-    let filter = asked.settings.discretization.filter;
+    let filter = asked.settings.method.discretization.filter;
     match pass {
         Pass::GatherNearest => (filter != Filter::Nearest).then_some("the filter is split"),
         Pass::GatherSplit => (filter != Filter::Split).then_some("the filter is nearest"),

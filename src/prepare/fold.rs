@@ -32,24 +32,6 @@ pub struct FrameMatrices {
 }
 
 impl Prepared {
-    /// Clip by name: the first where none is named, the rest pose for an empty name.
-    pub fn clip_index(&self, motion: &MotionSettings) -> Result<Option<usize>, MotionError> {
-        let clips = &self.scene.clips;
-        let Some(name) = &motion.clip else { return Ok((!clips.is_empty()).then_some(0)) };
-        if name.is_empty() {
-            return Ok(None);
-        }
-        let index = clips.iter().position(|clip| &clip.name == name);
-        index.map(Some).ok_or_else(|| MotionError::UnknownClip {
-            scene: self.scene.name.clone(),
-            clip: name.clone(),
-            known: match clips.len() {
-                0 => "none".to_owned(),
-                _ => clips.iter().map(|clip| format!("\"{}\"", clip.name)).collect::<Vec<_>>().join(", "),
-            },
-        })
-    }
-
     /// All world matrices, the turn applied.
     pub fn pose(&self, motion: &MotionSettings) -> Result<Pose, MotionError> {
         let mut pose = self.scene.pose(self.clip_index(motion)?, motion.time_secs);

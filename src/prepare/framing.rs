@@ -12,7 +12,7 @@ impl Prepared {
     /// The camera that is set, else the file's first, else one that frames everything in a picture of this size.
     pub fn camera(&self, settings: &Settings, pose: &Pose, size_px: [u32; 2]) -> OrbitCamera {
         let of_file = || camera_from_scene_camera(&self.scene, 0, pose);
-        settings.look.camera.or_else(of_file).unwrap_or_else(|| {
+        settings.shot.camera.or_else(of_file).unwrap_or_else(|| {
             let mut camera = OrbitCamera::default();
             camera.frame(self.bounds, f64::from(size_px[0]) / f64::from(size_px[1]));
             camera

@@ -22,8 +22,8 @@ impl Prepared {
 
     /// Every light of the pose that settings ask for.
     pub fn known_lights(&self, settings: &Settings) -> Result<Vec<KnownLight>, LightsError> {
-        let pose = self.pose(&settings.motion)?;
-        let shown = settings.visibility.shown_nodes(&self.scene)?;
-        Ok(known_lights(&self.scene, &pose, &settings.lighting, &shown, self.emits(&settings.lighting)))
+        let pose = self.pose(&settings.shot.motion)?;
+        let shown = settings.shot.visibility.shown_nodes(&self.scene)?;
+        Ok(known_lights(&self.scene, &pose, &settings.method.lighting, &shown, self.emits(&settings.method.lighting)))
     }
 }

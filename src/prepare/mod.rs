@@ -3,6 +3,7 @@
 //! an earlier preparation or a disk cache holds are not made again.
 
 mod caches;
+mod clips;
 mod emission;
 mod exact;
 mod fold;

@@ -8,6 +8,7 @@ pub mod bounds;
 pub mod builtin;
 pub mod camera;
 pub mod geometry;
+mod identity;
 pub mod load;
 pub mod material;
 pub mod mesh;
@@ -27,6 +28,7 @@ use serde::{Deserialize, Serialize};
 pub use animation::{Channel, Clip, Interpolation, Property};
 pub use bounds::Aabb;
 pub use camera::OrbitCamera;
+pub use identity::SceneIdentity;
 pub use material::{AlphaMode, Material, Texture, TextureRef, Wrap};
 pub use mesh::{Mesh, Primitive};
 pub use motion::{Motion, MotionReport, Object};
@@ -34,12 +36,16 @@ pub use pose::Pose;
 pub use skin::Skin;
 pub use warning::{FilePart, Warning};
 
+use crate::digest::Digest;
+
 /// One opened file. Immutable once loaded; everything that changes lives in a [`Pose`].
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     pub name: String,
     /// `None` for a scene made in memory.
     pub source: Option<PathBuf>,
+    /// Of the .gltf or .glb file alone, not of buffers and images beside it. `None` for a scene made in memory.
+    pub digest: Option<Digest>,
     pub nodes: Vec<Node>,
     pub meshes: Vec<Mesh>,
     pub materials: Vec<Material>,

@@ -12,8 +12,9 @@ pub struct Discretization {
     pub span: Option<f64>,
     pub mode: VoxelizationMode,
     pub filter: Filter,
-    /// Levels 0 to this one are stored densely; at most one less than the depth.
-    pub dense_level: u32,
+    /// Levels 0 to this one are stored densely, and never the leaves; `None`: [`Self::USUAL_DENSE_LEVEL`], or one
+    /// above the leaves where the grid has no more.
+    pub dense_level: Option<u32>,
     pub anchor: VoxelAnchor,
 }
 
@@ -24,7 +25,7 @@ impl Default for Discretization {
             span: None,
             mode: VoxelizationMode::default(),
             filter: Filter::default(),
-            dense_level: 6,
+            dense_level: None,
             anchor: VoxelAnchor::default(),
         }
     }
@@ -32,6 +33,7 @@ impl Default for Discretization {
 
 impl Discretization {
     pub const GRIDS: [u32; 5] = [64, 128, 256, 512, 1024];
+    pub const USUAL_DENSE_LEVEL: u32 = 6;
     pub const MAX_DENSE_LEVEL: u32 = 9;
 
     /// log2 of the grid.
@@ -39,17 +41,18 @@ impl Discretization {
         self.grid.ilog2()
     }
 
-    /// The dense level, one above the leaves at most: leaves are always sparse.
-    pub fn dense_level(&self) -> u32 {
-        self.dense_level.min(self.depth() - 1)
+    /// The last level that is stored densely, one above the leaves at most.
+    pub fn deepest_dense(&self) -> u32 {
+        self.dense_level.unwrap_or(Self::USUAL_DENSE_LEVEL).min(self.depth() - 1)
     }
 
-    pub(super) fn check(&self) -> Result<(), String> {
+    /// Are all values in range? If not, the sentence names value and range.
+    pub fn check(&self) -> Result<(), String> {
         if !Self::GRIDS.contains(&self.grid) {
             return Err(format!("a grid of {} cells is not one of {:?}", self.grid, Self::GRIDS));
         }
-        if self.dense_level > Self::MAX_DENSE_LEVEL {
-            return Err(format!("dense level {} is not in 0 to {}", self.dense_level, Self::MAX_DENSE_LEVEL));
+        if let Some(level) = self.dense_level.filter(|level| *level > Self::MAX_DENSE_LEVEL) {
+            return Err(format!("dense level {level} is not in 0 to {}", Self::MAX_DENSE_LEVEL));
         }
         match self.span {
             Some(span) if !(span.is_finite() && span > 0.0) => {

@@ -4,9 +4,6 @@ use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::OrbitCamera;
-use crate::scene::camera::FOV_Y_DEGREES;
-
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Look {
@@ -18,8 +15,6 @@ pub struct Look {
     pub voxel_edges: bool,
     /// A headlight from the camera; off shows the bare colour.
     pub shaded: bool,
-    /// `None`: frames everything.
-    pub camera: Option<OrbitCamera>,
     /// Also measures the filter not shown, and both against the exact posed voxelization.
     pub accuracy: bool,
     /// Light is multiplied by 2 to this before it is shown; `None`: what the scene's mean radiance asks for.
@@ -42,7 +37,6 @@ impl Default for Look {
             alpha: AlphaRule::default(),
             voxel_edges: false,
             shaded: true,
-            camera: None,
             accuracy: false,
             exposure_stops: None,
             tone_curve: ToneCurve::default(),
@@ -71,7 +65,7 @@ impl Look {
         if !Slice::WIDTHS_CELLS.contains(&self.slice.width_cells) {
             return Err(format!("a width of {} cells is not in 1 to 1024", self.slice.width_cells));
         }
-        self.camera.map_or(Ok(()), |camera| check_camera(&camera))
+        Ok(())
     }
 
     /// Whether the picture shows light that the octree holds.
@@ -84,20 +78,6 @@ impl Look {
             View::Mesh | View::Ghost => false,
         }
     }
-}
-
-fn check_camera(camera: &OrbitCamera) -> Result<(), String> {
-    if !(camera.eye.is_finite() && camera.target.is_finite()) {
-        return Err("the camera's eye and target must be finite".to_owned());
-    }
-    if camera.eye == camera.target {
-        return Err("the camera's eye and target must differ".to_owned());
-    }
-    if !FOV_Y_DEGREES.contains(&camera.fov_y_degrees) {
-        let (least, most) = (FOV_Y_DEGREES.start(), FOV_Y_DEGREES.end());
-        return Err(format!("a field of view of {} degrees is not in {least} to {most}", camera.fov_y_degrees));
-    }
-    Ok(())
 }
 
 /// A plane through the grid on which the octree is sampled.

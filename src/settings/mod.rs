@@ -4,16 +4,17 @@
 mod cone_tracing;
 mod discretization;
 mod format;
+mod format_1;
 mod light_edit;
 mod light_names;
 pub mod lighting;
 mod listed_names;
 mod look;
+mod method;
 mod motion;
 mod node_names;
+mod shot;
 mod visibility;
-
-use serde::{Deserialize, Serialize};
 
 pub use cone_tracing::ConeTracing;
 pub use discretization::{Discretization, Filter, VoxelAnchor, VoxelizationMode};
@@ -23,19 +24,17 @@ pub use lighting::Lighting;
 pub use look::{
     AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, SurfaceView, ToneCurve, View,
 };
+pub use method::MethodSettings;
 pub use motion::MotionSettings;
 pub use node_names::NodeNames;
+pub use shot::ShotSettings;
 pub use visibility::{Hidden, Visibility, VisibilityError};
 
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+/// What is looked at, and how it is computed.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
-    pub discretization: Discretization,
-    pub motion: MotionSettings,
-    pub look: Look,
-    pub visibility: Visibility,
-    pub lighting: Lighting,
-    pub cone_tracing: ConeTracing,
+    pub shot: ShotSettings,
+    pub method: MethodSettings,
 }
 
 impl Settings {
@@ -43,10 +42,7 @@ impl Settings {
     /// from outside the program asks, before using them. Clip and nodes depend on the scene: whoever
     /// poses it finds out.
     pub fn check(&self) -> Result<(), String> {
-        self.discretization.check()?;
-        self.motion.check()?;
-        self.lighting.check()?;
-        self.cone_tracing.check()?;
-        self.look.check(self.discretization.depth())
+        self.shot.check()?;
+        self.method.check()
     }
 }

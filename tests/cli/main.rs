@@ -16,6 +16,7 @@ mod files;
 mod hidden;
 mod lights;
 mod lit_surfaces;
+mod misfits;
 mod models;
 mod node;
 mod pictures;

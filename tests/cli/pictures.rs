@@ -86,7 +86,7 @@ fn a_picture_draws_itself_again() {
 /// Written by the program of that format. Another driver may round a colour, or a voxel's border, the other way.
 #[test]
 fn a_picture_of_every_format_so_far_is_drawn_again() {
-    const FORMATS: [&str; 1] = ["format-1"];
+    const FORMATS: [&str; 2] = ["format-1", "format-2"];
     let scenes = Scenes::new();
     let saved = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/saved");
     for format in FORMATS {

@@ -2,7 +2,10 @@
 
 use std::ffi::OsStr;
 use std::fs;
+use std::path::Path;
 
+use octolume::digest::Digest;
+use octolume::settings::{FORMAT, Settings};
 use serde_json::{Value, json};
 
 use crate::scenes::{BOX_TRIANGLES, Scenes, TURN_SECS};
@@ -148,6 +151,14 @@ fn accuracy_compares_both_filters_in_every_pose() {
     let scene = scenes.turning_box();
     let found = report("accuracy", scene.as_os_str(), &["--times", "0,0.7", "--grids", "64,128", "-o", folder]);
     assert_eq!(fields(&found), ["adapter", "date", "driver", "experiment", "octolume", "rows", "settings"]);
+    let settings = Settings::from_json(&found["settings"].to_string()).expect("settings that open");
+    let of = settings.shot.scene.expect("the scene is told");
+    let bytes = fs::read(&scene).expect("the scene");
+    assert_eq!((Path::new(&of.source), of.digest), (&*scene, Some(Digest::of_file(&bytes))));
+    assert_eq!(
+        (&found["settings"]["format"], &found["settings"]["shot"]["size_px"]),
+        (&json!(FORMAT), &json!([960, 540]))
+    );
     let rows = found["rows"].as_array().expect("a list");
     assert_eq!(rows.len(), 4);
     for row in rows {

@@ -37,17 +37,17 @@ fn sliding_traveller(distance: f64) -> (Scene, DVec3) {
 
 fn settings(traveller: DVec3, filter: Filter) -> Settings {
     let mut settings = Settings::default();
-    settings.discretization.grid = 64;
-    settings.discretization.filter = filter;
-    settings.look.view = View::Surfaces;
-    settings.look.surface = SurfaceView::Diffuse;
-    settings.look.exposure_stops = Some(0.0);
+    settings.method.discretization.grid = 64;
+    settings.method.discretization.filter = filter;
+    settings.method.look.view = View::Surfaces;
+    settings.method.look.surface = SurfaceView::Diffuse;
+    settings.method.look.exposure_stops = Some(0.0);
     let target = traveller + DVec3::Y * 0.4;
-    settings.look.camera = Some(OrbitCamera { eye: target + DVec3::new(1.2, 1.6, 1.4), target, fov_y_degrees: 50.0 });
-    settings.cone_tracing.half_resolution = false;
-    settings.cone_tracing.pattern_px = 1;
-    settings.cone_tracing.cones = 16;
-    settings.lighting.sky_nits = [1.0; 3];
+    settings.shot.camera = Some(OrbitCamera { eye: target + DVec3::new(1.2, 1.6, 1.4), target, fov_y_degrees: 50.0 });
+    settings.method.cone_tracing.half_resolution = false;
+    settings.method.cone_tracing.pattern_px = 1;
+    settings.method.cone_tracing.cones = 16;
+    settings.method.lighting.sky_nits = [1.0; 3];
     settings
 }
 
@@ -56,15 +56,17 @@ fn series(filter: Filter) -> Vec<Vec<[f32; 2]>> {
     // The span does not depend on a clip of this length: the scene is far larger.
     let (scene, traveller) = sliding_traveller(0.0);
     let settings = settings(traveller, filter);
-    let span = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default()).expect("small").grid.span;
+    let span =
+        prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default()).expect("small").grid.span;
     let (scene, _) = sliding_traveller(span);
     let mut settings = settings;
-    settings.discretization.span = Some(span);
-    let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default()).expect("small");
+    settings.method.discretization.span = Some(span);
+    let prepared =
+        prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default()).expect("small");
     let mut engine = Engine::new(Arc::new(open()));
     engine.set_prepared(Some(Arc::new(prepared)));
     let step = |step: u32| {
-        settings.motion.time_secs = f64::from(step) / f64::from(STEPS);
+        settings.shot.motion.time_secs = f64::from(step) / f64::from(STEPS);
         engine.request(&settings, SIZE_PX).expect("a request");
         engine.run_to_end().expect("a frame");
         let light = engine.read_surfaces().expect("readable").expect("surfaces");

@@ -3,7 +3,7 @@
 use octolume::plan::Pass;
 use octolume::scene::{Light, LightKind, Material, Node, OrbitCamera, Scene, Trs};
 use octolume::settings::lighting::{LightEdit, Shadows, SunShines};
-use octolume::settings::{Filter, Lookup, Settings, SurfaceView, View};
+use octolume::settings::{Filter, Lookup, MethodSettings, SurfaceView, View};
 
 use crate::plan::{Counted, running};
 use crate::scenes::{cube_scene, node};
@@ -28,9 +28,10 @@ fn counted(roughness: f32, lit: bool) -> Counted {
         scene.nodes.push(Node { light: Some(0), ..node(None, Trs::default()) });
     }
     let mut counted = Counted::new(scene);
-    counted.settings = Settings { discretization: counted.settings.discretization, ..Settings::default() };
-    counted.settings.look.view = View::Surfaces;
-    counted.settings.lighting.sun.shines = SunShines::Never;
+    let discretization = counted.settings.method.discretization;
+    counted.settings.method = MethodSettings { discretization, ..MethodSettings::default() };
+    counted.settings.method.look.view = View::Surfaces;
+    counted.settings.method.lighting.sun.shines = SunShines::Never;
     counted
 }
 
@@ -67,13 +68,13 @@ fn nothing_is_dispatched_when_still_and_cones_alone_when_they_change() {
     let (still, made) = counted.frame();
     assert!(still.is_idle());
     assert_eq!((made.pipelines, made.buffers), (0, 0));
-    counted.settings.cone_tracing.cones = 2;
+    counted.settings.method.cone_tracing.cones = 2;
     let shown = [Pass::ComposeSurfaces, Pass::MeasureExposure, Pass::ShowSurfaces];
     let diffuse = [Pass::TraceDiffuse, Pass::BlurDiffuse, Pass::UpsampleDiffuse];
     assert_eq!(running(&counted.frame().0), [&diffuse[..], &shown].concat());
-    counted.settings.cone_tracing.specular = false;
+    counted.settings.method.cone_tracing.specular = false;
     assert_eq!(running(&counted.frame().0), shown, "without the term that is off");
-    counted.settings.cone_tracing.specular = true;
+    counted.settings.method.cone_tracing.specular = true;
     assert_eq!(running(&counted.frame().0), [], "what was traced, and the picture of it, is still there");
 }
 
@@ -81,12 +82,12 @@ fn nothing_is_dispatched_when_still_and_cones_alone_when_they_change() {
 fn a_moved_camera_lights_no_voxel_and_a_changed_light_draws_no_surface() {
     let mut counted = counted(1.0, true);
     counted.frame();
-    counted.settings.look.camera = Some(OrbitCamera::default());
+    counted.settings.shot.camera = Some(OrbitCamera::default());
     let moved = counted.frame().0;
     assert!(moved.runs(Pass::DrawSurfaces) && moved.runs(Pass::TraceDiffuse));
     assert!(!moved.runs(Pass::InjectLight) && !moved.runs(Pass::DrawShadows) && !moved.runs(Pass::MarkLeaves));
     let edit = LightEdit { on: true, kind: LightKind::Directional, color: [1.0, 0.5, 0.0], intensity: 3.0 };
-    counted.settings.lighting.edits.insert(1, edit);
+    counted.settings.method.lighting.edits.insert(1, edit);
     let lit = counted.frame().0;
     assert!(!lit.runs(Pass::DrawSurfaces) && !lit.runs(Pass::DrawShadows));
     assert!(lit.runs(Pass::InjectLight) && lit.runs(Pass::LightSurfaces) && lit.runs(Pass::TraceDiffuse));
@@ -95,11 +96,11 @@ fn a_moved_camera_lights_no_voxel_and_a_changed_light_draws_no_surface() {
 #[test]
 fn occlusion_alone_reads_opacity_that_light_did_not_touch() {
     let mut counted = counted(1.0, true);
-    counted.settings.look.surface = SurfaceView::Ao;
+    counted.settings.method.look.surface = SurfaceView::Ao;
     let first = counted.frame().0;
     assert!(first.runs(Pass::TraceDiffuse) && first.runs(Pass::AverageLight));
     assert!(!first.runs(Pass::Illuminate) && !first.runs(Pass::LightSurfaces) && !first.runs(Pass::DrawShadows));
-    counted.settings.look.surface = SurfaceView::Final;
+    counted.settings.method.look.surface = SurfaceView::Final;
     assert!(counted.frame().0.runs(Pass::Illuminate), "now light is looked at");
     assert!(counted.frame().0.is_idle());
 }
@@ -107,8 +108,8 @@ fn occlusion_alone_reads_opacity_that_light_did_not_touch() {
 #[test]
 fn whole_resolution_makes_no_target_to_upsample() {
     let mut counted = counted(1.0, true);
-    counted.settings.cone_tracing.half_resolution = false;
-    counted.settings.cone_tracing.pattern_px = 1;
+    counted.settings.method.cone_tracing.half_resolution = false;
+    counted.settings.method.cone_tracing.pattern_px = 1;
     assert_eq!(traced(&mut counted), [Pass::TraceDiffuse]);
     assert!(labels(&counted).iter().all(|label| label != "diffuse light" && label != "blurred cones"));
 }
@@ -119,7 +120,7 @@ fn cones_that_hop_by_pointers_find_them_linked() {
     counted.frame();
     let by_ranks = counted.engine.read_surfaces().expect("readable");
     for lookup in [Lookup::BlockPointers, Lookup::NodePointers] {
-        counted.settings.cone_tracing.lookup = lookup;
+        counted.settings.method.cone_tracing.lookup = lookup;
         assert!(counted.frame().0.runs(Pass::LinkNodes));
         assert_eq!(counted.engine.read_surfaces().expect("readable"), by_ranks, "{lookup:?}");
     }
@@ -128,12 +129,12 @@ fn cones_that_hop_by_pointers_find_them_linked() {
 #[test]
 fn shadows_that_were_marched_through_other_leaves_are_marched_again() {
     let mut counted = counted(1.0, true);
-    counted.settings.lighting.shadows = Shadows::March;
-    counted.settings.look.surface = SurfaceView::Direct;
+    counted.settings.method.lighting.shadows = Shadows::March;
+    counted.settings.method.look.surface = SurfaceView::Direct;
     assert!(counted.frame().0.runs(Pass::LightByMarching));
-    counted.settings.look.view = View::Voxels;
-    counted.settings.discretization.filter = Filter::Nearest;
+    counted.settings.method.look.view = View::Voxels;
+    counted.settings.method.discretization.filter = Filter::Nearest;
     assert!(counted.frame().0.runs(Pass::MarkLeaves));
-    counted.settings.look.view = View::Surfaces;
+    counted.settings.method.look.view = View::Surfaces;
     assert!(counted.frame().0.runs(Pass::LightByMarching));
 }

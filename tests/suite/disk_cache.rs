@@ -50,7 +50,7 @@ pub const SMALL: Discretization = Discretization {
     span: None,
     mode: VoxelizationMode::Thin,
     filter: Filter::Split,
-    dense_level: 5,
+    dense_level: Some(5),
     anchor: VoxelAnchor::Centre,
 };
 

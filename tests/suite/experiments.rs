@@ -29,9 +29,9 @@ fn subject() -> Subject {
 
 fn subject_of(scene: Scene) -> Subject {
     let mut settings = Settings::default();
-    settings.discretization.grid = 64;
-    settings.lighting.sun.shines = SunShines::Always;
-    let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default());
+    settings.method.discretization.grid = 64;
+    settings.method.lighting.sun.shines = SunShines::Always;
+    let prepared = prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default());
     Subject { prepared: Arc::new(prepared.unwrap_or_else(|error| panic!("{error}"))), settings, runs: RUNS }
 }
 
@@ -144,7 +144,7 @@ fn an_experiment_is_cancelled_at_any_moment() {
 #[test]
 fn an_error_ends_an_experiment_and_is_told_once() {
     let mut subject = subject();
-    subject.settings.lighting.sun.shines = SunShines::Never;
+    subject.settings.method.lighting.sun.shines = SunShines::Never;
     let mut experiment = experiment::shadows(&Arc::new(device::open()), subject, poses());
     let error = experiment.advance(SLICE).expect_err("no light");
     assert!(matches!(error, ExperimentError::NoLight(_)), "{error}");
@@ -177,7 +177,7 @@ fn counts(report: FilterReport) -> FilterReport {
 fn by_engine(prepared: &Arc<Prepared>, settings: &Settings) -> (u64, [FilterReport; 2]) {
     let mut engine = Engine::new(Arc::new(device::open()));
     engine.set_prepared(Some(Arc::clone(prepared)));
-    let exact = prepared.exact(&settings.motion, &Hidden::default(), &Progress::default()).expect("voxels");
+    let exact = prepared.exact(&settings.shot.motion, &Hidden::default(), &Progress::default()).expect("voxels");
     engine.offer_exact(Arc::new(exact));
     engine.request(settings, [1, 1]).expect("a frame");
     engine.run_to_end().expect("runs");
@@ -193,9 +193,9 @@ fn holes_and_spill_are_those_of_an_engine() {
     finish(&mut experiments);
     let Found::Voxels { rows } = experiments[0].report().found else { panic!("rows of voxels") };
     let mut settings = subject.settings.clone();
-    (settings.look.view, settings.look.accuracy) = (View::Voxels, true);
+    (settings.method.look.view, settings.method.look.accuracy) = (View::Voxels, true);
     for (row, pose) in rows.iter().zip(poses()) {
-        settings.motion = pose;
+        settings.shot.motion = pose;
         let VoxelRow { exact, nearest, split, .. } = row.clone();
         assert_eq!((exact, [nearest, split].map(counts)), by_engine(&subject.prepared, &settings));
     }
@@ -211,7 +211,7 @@ fn kernels_move_the_bytes_that_an_engine_counts() {
     let mut engine = Engine::new(Arc::new(device::open()));
     engine.set_prepared(Some(Arc::clone(&subject.prepared)));
     let mut settings = subject.settings.clone();
-    settings.look.view = View::Voxels;
+    settings.method.look.view = View::Voxels;
     let mut bytes = BTreeMap::<String, u64>::new();
     engine.request(&settings, [1280, 720]).expect("a frame");
     engine.run_to_end().expect("runs");

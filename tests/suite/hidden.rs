@@ -41,20 +41,26 @@ fn without(nodes: &[usize]) -> Scene {
 
 fn settings() -> Settings {
     let mut settings = Settings::default();
-    settings.discretization.grid = 64;
+    settings.method.discretization.grid = 64;
     let eye = DVec3::new(1.0, 2.0, 5.0);
-    settings.look.camera = Some(OrbitCamera { eye, target: DVec3::ZERO, fov_y_degrees: 45.0 });
+    settings.shot.camera = Some(OrbitCamera { eye, target: DVec3::ZERO, fov_y_degrees: 45.0 });
+    settings
+}
+
+fn showing_only(node: usize) -> Settings {
+    let mut settings = settings();
+    settings.shot.visibility.only = BTreeSet::from([node]);
     settings
 }
 
 fn hiding(nodes: &[usize]) -> Settings {
     let mut settings = settings();
-    settings.visibility.hidden = nodes.iter().copied().collect();
+    settings.shot.visibility.hidden = nodes.iter().copied().collect();
     settings
 }
 
 fn prepared(scene: Scene) -> Arc<Prepared> {
-    let prepared = prepare(Arc::new(scene), &settings().discretization, None, &Progress::default());
+    let prepared = prepare(Arc::new(scene), &settings().method.discretization, None, &Progress::default());
     Arc::new(prepared.unwrap_or_else(|error| panic!("{error}")))
 }
 
@@ -97,9 +103,9 @@ fn how_a_hidden_object_moves_costs_nothing() {
     let mut engine = engine(scene());
     let mut settings = hiding(&[0]);
     frame(&mut engine, &settings);
-    settings.motion.time_secs = 0.5;
+    settings.shot.motion.time_secs = 0.5;
     assert!(frame(&mut engine, &settings).is_idle());
-    settings.visibility = Visibility::default();
+    settings.shot.visibility = Visibility::default();
     assert!(frame(&mut engine, &settings).runs(Pass::TransformRigid));
 }
 
@@ -108,16 +114,18 @@ fn where_everything_is_hidden_nothing_runs_and_nothing_is_shown() {
     for view in [View::Voxels, View::Mesh, View::Ghost] {
         let mut engine = engine(scene());
         let mut shown = settings();
-        shown.look.view = view;
+        shown.method.look.view = view;
         if view == View::Ghost {
             let prepared = Arc::clone(engine.prepared().expect("a scene"));
-            let exact = prepared.exact(&shown.motion, &Default::default(), &Progress::default()).expect("an exact set");
+            let exact =
+                prepared.exact(&shown.shot.motion, &Default::default(), &Progress::default()).expect("an exact set");
             engine.offer_exact(Arc::new(exact));
         }
         frame(&mut engine, &shown);
         let (picture, voxels) = (engine.read_image().expect("a picture"), engine.read_voxels());
         let before = dispatches(engine.gpu());
-        let hidden = Settings { visibility: hiding(&[0, 1]).visibility, ..shown.clone() };
+        let mut hidden = shown.clone();
+        hidden.shot.visibility = hiding(&[0, 1]).shot.visibility;
         let plan = frame(&mut engine, &hidden);
         assert!(plan.rows.iter().all(|row| row.state == State::Skip), "{plan:?}");
         assert!(engine.shows_nothing() && engine.image().is_none() && engine.octree_report().is_none());
@@ -135,7 +143,7 @@ fn where_everything_is_hidden_nothing_runs_and_nothing_is_shown() {
 #[test]
 fn the_mesh_view_draws_and_uploads_what_is_shown_alone() {
     let mesh = |mut settings: Settings| {
-        settings.look.view = View::Mesh;
+        settings.method.look.view = View::Mesh;
         settings
     };
     let bytes = |engine: &Engine| -> u64 {
@@ -160,7 +168,7 @@ fn exact_voxels_and_accuracy_are_of_what_is_shown() {
     let (both, alone) = (prepared(scene()), prepared(without(&[1])));
     let motion = MotionSettings { time_secs: 0.37, ..MotionSettings::default() };
     let none = Default::default();
-    let hidden = both.hidden(&hiding(&[1]).visibility).expect("known nodes");
+    let hidden = both.hidden(&hiding(&[1]).shot.visibility).expect("known nodes");
     let exact = both.exact(&motion, &hidden, &Progress::default()).expect("an exact set");
     let cells = |exact: ExactVoxels| (exact.bits, exact.count, exact.warnings);
     let of_alone = alone.exact(&motion, &none, &Progress::default()).expect("an exact set");
@@ -169,7 +177,7 @@ fn exact_voxels_and_accuracy_are_of_what_is_shown() {
     assert_eq!(surface(&both, &hidden), surface(&alone, &none));
     let accuracy = |scene: Scene, exact: &ExactVoxels, mut settings: Settings| {
         let mut engine = engine(scene);
-        (settings.look.accuracy, settings.motion) = (true, motion.clone());
+        (settings.method.look.accuracy, settings.shot.motion) = (true, motion.clone());
         engine.offer_exact(Arc::new(exact.clone()));
         frame(&mut engine, &settings);
         let report = engine.accuracy().expect("both filters");
@@ -183,8 +191,7 @@ fn nodes_that_the_scene_does_not_have_are_refused() {
     let mut engine = engine(scene());
     let error = engine.request(&hiding(&[2]), SIZE_PX).expect_err("no such node").to_string();
     assert!(error.contains("node 2") && error.contains("0 to 1"), "{error}");
-    let only = Visibility { only: BTreeSet::from([7]), ..Visibility::default() };
-    assert!(engine.request(&Settings { visibility: only, ..settings() }, SIZE_PX).is_err());
+    assert!(engine.request(&showing_only(7), SIZE_PX).is_err());
 }
 
 #[test]
@@ -210,8 +217,7 @@ fn what_comes_back_into_pages_that_others_lay_in_is_moved_again() {
         engine
     };
     // A rigid object, a skinned one in its segments, and the rigid one again.
-    let alone = [2, 3, 2]
-        .map(|node| Settings { visibility: Visibility { only: [node].into(), ..Default::default() }, ..settings() });
+    let alone = [2, 3, 2].map(showing_only);
     let mut engine = new();
     for settings in &alone {
         frame(&mut engine, settings);

@@ -17,16 +17,17 @@ const SIZE_PX: [u32; 2] = [64, 48];
 /// The courtyard at 64³ with dense levels 0 to 3.
 fn settings() -> Settings {
     let mut settings = Settings::default();
-    settings.discretization.grid = 64;
-    settings.discretization.dense_level = 3;
-    settings.look.pointers = true;
+    settings.method.discretization.grid = 64;
+    settings.method.discretization.dense_level = Some(3);
+    settings.method.look.pointers = true;
     settings
 }
 
 fn engine(settings: &Settings) -> Engine {
     let bytes = builtin::bytes("courtyard").expect("a built-in scene");
     let scene = load::open_bytes("courtyard", bytes, None, &Progress::default()).expect("it opens");
-    let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default()).expect("it fits");
+    let prepared =
+        prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default()).expect("it fits");
     let mut engine = Engine::new(Arc::new(open()));
     engine.set_prepared(Some(Arc::new(prepared)));
     engine.request(settings, SIZE_PX).expect("a request");
@@ -105,7 +106,8 @@ fn children_fill_their_parents() {
 
 #[test]
 fn without_pointers_or_nodes_that_is_said() {
-    let plain = Settings { look: octolume::settings::Look { pointers: false, ..settings().look }, ..settings() };
+    let mut plain = settings();
+    plain.method.look.pointers = false;
     let engine = engine(&plain);
     let (_, leaf) = some_leaves(&engine, 5000)[1];
     let node = facts(&engine, 6, leaf).expect("a leaf");
@@ -121,7 +123,7 @@ fn without_pointers_or_nodes_that_is_said() {
 #[test]
 fn lit_nodes_tell_their_radiance() {
     let mut lit = settings();
-    lit.look.color = ColorBy::Radiance;
+    lit.method.look.color = ColorBy::Radiance;
     let engine = engine(&lit);
     let leaves = some_leaves(&engine, 997);
     let radiances: Vec<[f64; 3]> =
@@ -135,13 +137,13 @@ fn lit_nodes_tell_their_radiance() {
 fn a_pixel_shows_the_node_its_ray_meets() {
     for level in [None, Some(4)] {
         let mut settings = settings();
-        settings.look.level = level;
+        settings.method.look.level = level;
         let camera = octolume::scene::OrbitCamera {
             eye: DVec3::new(9.0, 7.0, 12.0),
             target: DVec3::new(0.0, 2.0, 0.0),
             fov_y_degrees: 60.0,
         };
-        settings.look.camera = Some(camera);
+        settings.shot.camera = Some(camera);
         let engine = engine(&settings);
         let grid = engine.prepared().expect("a scene").grid;
         let rays = PixelRays::new(&camera, &grid, SIZE_PX);
@@ -169,10 +171,10 @@ fn a_pixel_shows_the_node_its_ray_meets() {
 #[test]
 fn a_slice_of_occupancy_has_the_exposure_of_no_light_whatever_was_shown_before() {
     let mut occupancy = settings();
-    (occupancy.look.view, occupancy.look.slice.value) = (View::Slice, SliceValue::Occupancy);
+    (occupancy.method.look.view, occupancy.method.look.slice.value) = (View::Slice, SliceValue::Occupancy);
     assert_eq!(engine(&occupancy).exposure(), 1.0);
     let mut radiance = occupancy.clone();
-    radiance.look.slice.value = SliceValue::Radiance;
+    radiance.method.look.slice.value = SliceValue::Radiance;
     let mut engine = engine(&radiance);
     assert_ne!(engine.exposure(), 1.0, "the courtyard is lit");
     engine.request(&occupancy, SIZE_PX).expect("a request");

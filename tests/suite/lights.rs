@@ -204,14 +204,15 @@ fn the_engine_names_lights_that_are_nowhere() {
     scene.lights = street().lights;
     scene.nodes.push(node("lost", None, Some(0), at(f64::NAN, 0.0, 0.0)));
     let mut settings = octolume::settings::Settings::default();
-    settings.discretization.grid = 64;
-    let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default()).expect("it fits");
+    settings.method.discretization.grid = 64;
+    let prepared =
+        prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default()).expect("it fits");
     let mut engine = Engine::new(Arc::new(crate::device::open()));
     engine.set_prepared(Some(Arc::new(prepared)));
     engine.request(&settings, [1, 1]).expect("a request");
     let cause = "is left out: in this pose it has no finite place or no direction";
     assert_eq!(engine.left_out(), [format!("light \"warm\" of node \"lost\" {cause}")]);
-    settings.visibility.hidden.insert(1);
+    settings.shot.visibility.hidden.insert(1);
     engine.request(&settings, [1, 1]).expect("a request");
     assert!(engine.left_out().is_empty(), "hidden ones are not missed");
 }

@@ -17,9 +17,10 @@ use crate::scenes::cube_scene;
 /// Loses the device after so many slices of a frame; the error the frame ends with.
 fn lost_after(slices: usize, view: View) -> EngineError {
     let mut settings = Settings::default();
-    settings.discretization.grid = 64;
-    settings.look.view = view;
-    let prepared = prepare(Arc::new(cube_scene(Trs::default())), &settings.discretization, None, &Progress::default());
+    settings.method.discretization.grid = 64;
+    settings.method.look.view = view;
+    let prepared =
+        prepare(Arc::new(cube_scene(Trs::default())), &settings.method.discretization, None, &Progress::default());
     let mut engine = Engine::new(Arc::new(device::open()));
     engine.set_prepared(Some(Arc::new(prepared.expect("a scene"))));
     engine.request(&settings, [16, 16]).expect("a request");

@@ -68,6 +68,7 @@ mod lost_device;
 mod mean_luminance;
 mod mesh_rig;
 mod mesh_view;
+mod misfits;
 mod motion;
 mod moving;
 mod mutations;

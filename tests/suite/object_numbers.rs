@@ -23,8 +23,8 @@ fn more_objects_than_a_leaf_can_tell_apart_are_refused_where_they_are_shown_only
     let mut engine = Engine::new(Arc::new(open()));
     let mut request = |objects: usize, color: ColorBy, view: View| {
         let mut settings = Settings::default();
-        (settings.look.color, settings.look.view) = (color, view);
-        let prepared = prepare(Arc::new(row(objects)), &settings.discretization, None, &Progress::default());
+        (settings.method.look.color, settings.method.look.view) = (color, view);
+        let prepared = prepare(Arc::new(row(objects)), &settings.method.discretization, None, &Progress::default());
         engine.set_prepared(Some(Arc::new(prepared.expect("prepares"))));
         engine.request(&settings, [1, 1]).map_err(|error| error.to_string())
     };

@@ -16,7 +16,7 @@ use crate::path_tracer_rig::{
 fn furnace(albedo: f32) -> (Scene, Settings) {
     let scene = of_panels(room(1.0, 0), vec![glowing(albedo, 1.0)]);
     let mut settings = looking(DVec3::new(0.3, 0.1, -0.2), DVec3::new(-1.0, 0.4, 0.5));
-    settings.look.camera.as_mut().expect("is set").fov_y_degrees = 60.0;
+    settings.shot.camera.as_mut().expect("is set").fov_y_degrees = 60.0;
     (scene, settings)
 }
 
@@ -85,7 +85,7 @@ fn a_wall_on_a_floor_is_seen_by_its_view_factor() {
 fn a_wall_occludes_as_far_as_the_distance_reaches() {
     for (distance, reach) in [(1.0, 0.9), (1.0, 1.5), (1.0, 3.0), (0.5, 2.0)] {
         let mut settings = seen_floor();
-        settings.cone_tracing.occlusion_distance = Some(reach);
+        settings.method.cone_tracing.occlusion_distance = Some(reach);
         let film = traced(walled(6.0, distance, 0.0), &settings, 1024);
         // What is near enough of the wall is half a disc around its foot.
         let radius = f64::max(reach * reach - distance * distance, 0.0).sqrt();
@@ -97,7 +97,7 @@ fn a_wall_occludes_as_far_as_the_distance_reaches() {
 fn lit_by(light: LightEdit, position: [f64; 3], direction: [f64; 3]) -> Settings {
     let mut settings = seen_floor();
     let added = AddedLight::new("lamp".to_owned(), light.kind);
-    settings.lighting.added.push(AddedLight { light, position, direction, ..added });
+    settings.method.lighting.added.push(AddedLight { light, position, direction, ..added });
     settings
 }
 
@@ -117,8 +117,8 @@ fn assert_direct(settings: &Settings, expected: f64) {
 #[test]
 fn sun_point_and_spot_follow_their_laws_on_lambert() {
     let mut sun = seen_floor();
-    (sun.lighting.sun.shines, sun.lighting.sun.color) = (SunShines::Always, [1.0; 3]);
-    (sun.lighting.sun.illuminance_lux, sun.lighting.sun.direction) = (100.0, [0.6, -0.8, 0.0]);
+    (sun.method.lighting.sun.shines, sun.method.lighting.sun.color) = (SunShines::Always, [1.0; 3]);
+    (sun.method.lighting.sun.illuminance_lux, sun.method.lighting.sun.direction) = (100.0, [0.6, -0.8, 0.0]);
     assert_direct(&sun, 0.5 * 100.0 * 0.8 / PI);
     let place = [3.0, 4.0, 0.0];
     let point = |range: Option<f32>| lit_by(light(LightKind::Point { range }, 50.0), place, [0.0, -1.0, 0.0]);

@@ -72,14 +72,14 @@ fn facing_light_and_eye_the_brdf_has_a_closed_form() {
     // v = l = n: F = f0, D = 1/(π α²), V = 1/4.
     for (metallic, roughness) in [(0.0, 1.0), (0.0, 0.5), (1.0, 0.5), (1.0, 0.3)] {
         let mut settings = looking(DVec3::Y * 3.0, DVec3::ZERO);
-        settings.lighting.sun.shines = SunShines::Always;
-        (settings.lighting.sun.direction, settings.lighting.sun.color) = ([0.0, -1.0, 0.0], [1.0; 3]);
+        settings.method.lighting.sun.shines = SunShines::Always;
+        (settings.method.lighting.sun.direction, settings.method.lighting.sun.color) = ([0.0, -1.0, 0.0], [1.0; 3]);
         let found = mean(&on_floor(glossy(0.8, metallic, roughness), &settings, 1), Term::Direct);
         let color = f64::from(0.8_f32);
         let f0 = 0.04 + f64::from(metallic) * (color - 0.04);
         let diffuse = (1.0 - f0) * color * f64::from(1.0 - metallic) / PI;
         let specular = f0 / (4.0 * PI * f64::from(roughness).powi(4));
-        let expected = settings.lighting.sun.illuminance_lux * (diffuse + specular);
+        let expected = settings.method.lighting.sun.illuminance_lux * (diffuse + specular);
         // A degree of picture leaves the very middle of the highlight.
         assert!((found - expected).abs() < 5e-3 * expected, "{metallic} {roughness}: {found} is not {expected}");
     }
@@ -100,11 +100,11 @@ fn a_mirror_shows_light_that_a_wall_reflects_as_its_first_bounce() {
     let wall = panel(DVec3::new(-4.0, 0.0, 0.0), DVec3::Z * 8.0, DVec3::Y * 8.0, 1);
     let scene = of_panels(vec![floor(8.0, 0), wall], vec![glossy(1.0, 1.0, 0.0), glossy(0.5, 0.0, 1.0)]);
     let mut settings = seen_at(0.5_f64.sqrt());
-    settings.lighting.sun.shines = SunShines::Always;
-    (settings.lighting.sun.direction, settings.lighting.sun.color) = ([-1.0, 0.0, 0.0], [1.0; 3]);
+    settings.method.lighting.sun.shines = SunShines::Always;
+    (settings.method.lighting.sun.direction, settings.method.lighting.sun.color) = ([-1.0, 0.0, 0.0], [1.0; 3]);
     let film = traced_with(scene, &settings, options(Reflection::MetallicRoughness), 64);
     // The wall seen at 45° with the light along its normal: v·h = cos 22.5°, and α = 1.
-    let lux = settings.lighting.sun.illuminance_lux;
+    let lux = settings.method.lighting.sun.illuminance_lux;
     let fresnel = 0.04 + 0.96 * (1.0 - (PI / 8.0).cos()).powi(5);
     let visibility = 0.5 / (1.0 + 0.5_f64.sqrt());
     let expected = lux * ((1.0 - fresnel) * 0.5 + fresnel * visibility) / PI;
@@ -161,10 +161,10 @@ fn a_normal_map_leans_to_where_red_and_green_point() {
         for sign in [1.0, -1.0] {
             let scene = with_texture(material(1.0), [color; 2], |m, slot| m.normal_texture = Some(slot));
             let mut settings = looking(DVec3::Y * 3.0, DVec3::ZERO);
-            settings.lighting.sun.shines = SunShines::Always;
-            settings.lighting.sun.color = [1.0; 3];
-            settings.lighting.sun.direction = [sign * towards[0], -1.0, sign * towards[2]];
-            let found = mean(&traced(scene, &settings, 1), Term::Direct) / settings.lighting.sun.illuminance_lux;
+            settings.method.lighting.sun.shines = SunShines::Always;
+            settings.method.lighting.sun.color = [1.0; 3];
+            settings.method.lighting.sun.direction = [sign * towards[0], -1.0, sign * towards[2]];
+            let found = mean(&traced(scene, &settings, 1), Term::Direct) / settings.method.lighting.sun.illuminance_lux;
             let expected = if sign > 0.0 { 1.0 / PI } else { 0.0 };
             assert!((found - expected).abs() < 0.01, "{color:?} from {sign}: {found} is not {expected}");
         }

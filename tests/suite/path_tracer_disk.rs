@@ -89,12 +89,12 @@ const CHANGES: [Change; 18] = [
     |scene, _, _| scene.materials[1].emissive[2] = 1.0,
     |scene, _, _| scene.materials[0].unlit = true,
     |scene, _, _| scene.materials[0].alpha_mode = octolume::scene::AlphaMode::Blend,
-    |_, settings, _| settings.lighting.sky_nits[0] = 1.0,
-    |_, settings, _| settings.lighting.emission = 2.0,
-    |_, settings, _| settings.lighting.sun.shines = octolume::settings::lighting::SunShines::Always,
-    |_, settings, _| settings.cone_tracing.occlusion_distance = Some(0.1),
-    |_, settings, _| settings.look.camera.as_mut().expect("is set").eye.x += 0.1,
-    |_, settings, _| settings.motion.turn_degrees[1] = 5.0,
+    |_, settings, _| settings.method.lighting.sky_nits[0] = 1.0,
+    |_, settings, _| settings.method.lighting.emission = 2.0,
+    |_, settings, _| settings.method.lighting.sun.shines = octolume::settings::lighting::SunShines::Always,
+    |_, settings, _| settings.method.cone_tracing.occlusion_distance = Some(0.1),
+    |_, settings, _| settings.shot.camera.as_mut().expect("is set").eye.x += 0.1,
+    |_, settings, _| settings.shot.motion.turn_degrees[1] = 5.0,
     |_, _, options| options.seed += 1,
     |_, _, options| options.pixel = PixelSampling::Area,
     |_, _, options| options.reflection = Reflection::Lambert,
@@ -112,6 +112,6 @@ fn the_key_is_of_all_that_paths_read() {
     let mut named = scene();
     named.materials[0] = Material { name: "renamed".to_owned(), ..named.materials[0].clone() };
     let mut cones = settings();
-    (cones.cone_tracing.cones, cones.lighting.bounces) = (7, 3);
+    (cones.method.cone_tracing.cones, cones.method.lighting.bounces) = (7, 3);
     assert_eq!(key(named, &cones, of_all()), plain);
 }

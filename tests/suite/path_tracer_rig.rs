@@ -57,14 +57,14 @@ pub fn of_panels(panels: Vec<Primitive>, materials: Vec<Material>) -> Scene {
 /// No light at all. Looks at `target`, and at so little of it that it is one point.
 pub fn looking(eye: DVec3, target: DVec3) -> Settings {
     let mut settings = Settings::default();
-    settings.discretization.grid = 64;
-    settings.lighting.sun.shines = SunShines::Never;
-    settings.look.camera = Some(OrbitCamera { eye, target, fov_y_degrees: 1.0 });
+    settings.method.discretization.grid = 64;
+    settings.method.lighting.sun.shines = SunShines::Never;
+    settings.shot.camera = Some(OrbitCamera { eye, target, fov_y_degrees: 1.0 });
     settings
 }
 
 pub fn under_sky(mut settings: Settings, nits: f64) -> Settings {
-    settings.lighting.sky_nits = [nits; 3];
+    settings.method.lighting.sky_nits = [nits; 3];
     settings
 }
 
@@ -73,7 +73,7 @@ pub fn options(reflection: Reflection) -> Options {
 }
 
 pub fn prepared(scene: Scene, settings: &Settings) -> Arc<Prepared> {
-    let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default());
+    let prepared = prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default());
     Arc::new(prepared.unwrap_or_else(|error| panic!("{error}")))
 }
 

@@ -79,9 +79,9 @@ fn with(passes: &[Pass]) -> Vec<Pass> {
 #[test]
 fn what_is_told_of_a_frame_is_made_again_where_it_was_dropped() {
     let mut slice = Settings::default();
-    (slice.look.view, slice.look.slice.value) = (View::Slice, SliceValue::Radiance);
+    (slice.method.look.view, slice.method.look.slice.value) = (View::Slice, SliceValue::Radiance);
     let mut surfaces = Settings::default();
-    surfaces.look.view = View::Surfaces;
+    surfaces.method.look.view = View::Surfaces;
     let voxels = [Part::Masks, Part::Topology, Part::Payload];
     let lit = [Part::ComposedLight, Part::Exposure, Part::GlossyTiles];
     let scene = SceneFacts { lights: 1, glossy: true, ..RIGID };
@@ -93,7 +93,7 @@ fn what_is_told_of_a_frame_is_made_again_where_it_was_dropped() {
             let kept = all.to_run().iter().filter(|planned| planned.part != part);
             kept.for_each(|planned| held.hold(planned.part, planned.key.clone()));
             let made: Vec<Part> = plan(&asked, &held).to_run().iter().map(|planned| planned.part).collect();
-            assert_eq!(made, [part], "{:?}", settings.look.view);
+            assert_eq!(made, [part], "{:?}", settings.method.look.view);
         }
     }
 }
@@ -152,7 +152,7 @@ fn a_pose_rebuilds_without_new_caches_and_every_row_names_what_differs() {
 
 #[test]
 fn another_filter_moves_nothing() {
-    let nearest = |asked: &mut Asked| asked.settings.discretization.filter = Filter::Nearest;
+    let nearest = |asked: &mut Asked| asked.settings.method.discretization.filter = Filter::Nearest;
     let plan = changed(&RIGID, &Settings::default(), nearest);
     assert_eq!(reason(&plan, Pass::TransformRigid).0, State::Reuse);
     assert_eq!(reason(&plan, Pass::GatherSplit), (State::Skip, "the filter is nearest"));
@@ -170,9 +170,9 @@ fn an_empty_grid_runs_nothing() {
 #[test]
 fn the_mesh_view_builds_no_octree() {
     let mut settings = Settings::default();
-    settings.look.view = View::Mesh;
+    settings.method.look.view = View::Mesh;
     assert_eq!(running(&first(&RIGID, &settings)), [Pass::DrawMesh]);
-    settings.look.accuracy = true;
+    settings.method.look.accuracy = true;
     assert!(first(&RIGID, &settings).runs(Pass::GatherSplit));
 }
 
@@ -180,17 +180,17 @@ fn the_mesh_view_builds_no_octree() {
 fn objects_are_numbered_only_when_looked_at() {
     let settings = Settings::default();
     assert_eq!(reason(&first(&RIGID, &settings), Pass::NumberObjects).0, State::Skip);
-    let plan = changed(&RIGID, &settings, |asked| asked.settings.look.color = ColorBy::Object);
+    let plan = changed(&RIGID, &settings, |asked| asked.settings.method.look.color = ColorBy::Object);
     assert_eq!(running(&plan), [Pass::NumberObjects, Pass::MarchVoxels]);
 }
 
 /// The two methods of a request that measures both filters.
 fn measured(exact: Option<Digest>) -> [Asked; 2] {
     let mut shown = Asked::new(RIGID, Settings::default());
-    shown.settings.look.accuracy = true;
+    shown.settings.method.look.accuracy = true;
     shown.contents.exact = exact;
     let mut other = Asked { wanted_for: WantedFor::Comparison, ..shown.clone() };
-    other.settings.discretization.filter = Filter::Nearest;
+    other.settings.method.discretization.filter = Filter::Nearest;
     [shown, other]
 }
 
@@ -219,7 +219,7 @@ fn what_two_methods_share_is_made_once() {
 fn the_ghost_waits_for_the_exact_set() {
     let mut settings = Settings::default();
     let mut before = Asked::new(RIGID, settings.clone());
-    settings.look.view = View::Ghost;
+    settings.method.look.view = View::Ghost;
     let mut ghost = Asked::new(RIGID, settings);
     assert!(after(&before, &ghost).is_idle());
     ghost.contents.exact = Some(other());
@@ -259,11 +259,11 @@ proptest! {
         let digest = |index: u32| Digest::of(&(bits >> index & 1));
         let scene = SceneFacts { rigid_voxels: rigid, skinned_voxels: skinned, lights, ..RIGID };
         let mut settings = Settings::default();
-        settings.look.view = VIEWS[before];
+        settings.method.look.view = VIEWS[before];
         let mut held = Held::default();
         held.hold_all(&plan(&[Asked::new(scene, settings.clone())], &held));
-        settings.look.view = VIEWS[view];
-        settings.look.accuracy = accuracy;
+        settings.method.look.view = VIEWS[view];
+        settings.method.look.accuracy = accuracy;
         let mut asked = Asked::new(scene, settings);
         asked.contents = Contents {
             caches: digest(0), residents: digest(1), rigid: digest(2), skinned: digest(3), placed: digest(4),
@@ -304,7 +304,7 @@ pub struct Counted {
 impl Counted {
     pub fn new(scene: Scene) -> Self {
         let mut settings = Settings::default();
-        settings.discretization.grid = 64;
+        settings.method.discretization.grid = 64;
         let prepared = prepared(scene, &settings);
         let gpu = Gpu::headless(&octolume::stages::SHADERS, None).unwrap_or_else(|error| panic!("{error}"));
         let mut engine = Engine::new(Arc::new(gpu));
@@ -343,7 +343,7 @@ impl Counted {
 }
 
 fn prepared(scene: Scene, settings: &Settings) -> Prepared {
-    prepare(Arc::new(scene), &settings.discretization, None, &Progress::default())
+    prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default())
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -365,7 +365,7 @@ fn a_still_scene_dispatches_nothing_after_its_first_frame() {
 fn a_moved_camera_dispatches_the_march_alone() {
     let mut counted = Counted::new(cube_scene(Trs::default()));
     counted.frame();
-    counted.settings.look.camera = Some(OrbitCamera::default());
+    counted.settings.shot.camera = Some(OrbitCamera::default());
     let (plan, made) = counted.frame();
     assert_eq!(running(&plan), [Pass::MarchVoxels]);
     assert_nothing_made(&made);
@@ -375,7 +375,7 @@ fn a_moved_camera_dispatches_the_march_alone() {
 fn rigid_motion_never_makes_a_skinning_pipeline_or_joint_buffer() {
     let mut counted = Counted::new(sliding_scene());
     counted.frame();
-    counted.settings.motion.time_secs = 0.5;
+    counted.settings.shot.motion.time_secs = 0.5;
     let (plan, made) = counted.frame();
     assert!(plan.runs(Pass::TransformRigid));
     assert_eq!(made.pipelines, 0);
@@ -400,7 +400,7 @@ fn a_skin_is_moved_by_the_skinning_kernel_alone() {
 #[test]
 fn the_nearest_filter_gathers_without_splitting() {
     let mut counted = Counted::new(cube_scene(Trs::default()));
-    counted.settings.discretization.filter = Filter::Nearest;
+    counted.settings.method.discretization.filter = Filter::Nearest;
     let (plan, _) = counted.frame();
     assert!(plan.runs(Pass::GatherNearest) && !plan.runs(Pass::GatherSplit));
     let report = counted.engine.octree_report().expect("an octree");
@@ -421,11 +421,11 @@ fn an_empty_scene_touches_no_gpu() {
 fn a_frame_built_anew_equals_the_one_that_reused() {
     let mut reusing = Counted::new(sliding_scene());
     for time_secs in [0.0, 0.3, 0.7] {
-        reusing.settings.motion.time_secs = time_secs;
+        reusing.settings.shot.motion.time_secs = time_secs;
         reusing.frame();
     }
     let mut fresh = Counted::new(sliding_scene());
-    fresh.settings.motion.time_secs = 0.7;
+    fresh.settings.shot.motion.time_secs = 0.7;
     fresh.frame();
     let read = |counted: &Counted| counted.engine.read_voxels().expect("voxels");
     assert_eq!(read(&reusing), read(&fresh));
@@ -436,15 +436,15 @@ fn two_filters_share_what_is_moved_and_switching_back_rebuilds_nothing() {
     let mut counted = Counted::new(sliding_scene());
     let filters = [Filter::Nearest, Filter::Split, Filter::Nearest, Filter::Split];
     let plans = filters.map(|filter| {
-        counted.settings.discretization.filter = filter;
+        counted.settings.method.discretization.filter = filter;
         counted.frame().0
     });
     assert!(plans[0].runs(Pass::TransformRigid) && !plans[1].runs(Pass::TransformRigid));
     assert!(plans[1].runs(Pass::GatherSplit));
     assert!(plans[2].is_idle() && plans[3].is_idle(), "the octrees and their pictures are there");
-    counted.settings.look.accuracy = true;
+    counted.settings.method.look.accuracy = true;
     assert!(counted.frame().0.is_idle(), "and nothing is compared yet");
-    counted.settings.motion.time_secs = 0.5;
+    counted.settings.shot.motion.time_secs = 0.5;
     let before = counted.before.dispatches.clone();
     counted.frame();
     let times = |kernel: &str| counted.before.dispatches[kernel] - before[kernel];
@@ -461,16 +461,16 @@ fn no_more_is_kept_than_is_stated() {
     counted.frame();
     let one = bytes(&counted);
     for frame in 1..20_u32 {
-        counted.settings.motion.time_secs = f64::from(frame) * 0.05;
+        counted.settings.shot.motion.time_secs = f64::from(frame) * 0.05;
         counted.frame();
     }
     // A second picture, so that the one on screen stays while the next is drawn; buffers grow with the octree.
     assert!(bytes(&counted) < 2 * one, "a playing clip keeps {} bytes, one frame {one}", bytes(&counted));
-    counted.settings.discretization.filter = Filter::Nearest;
+    counted.settings.method.discretization.filter = Filter::Nearest;
     counted.frame();
     let both = bytes(&counted);
     counted.engine.keep_bytes(0);
-    counted.settings.look.camera = Some(OrbitCamera::default());
+    counted.settings.shot.camera = Some(OrbitCamera::default());
     counted.frame();
     assert!(bytes(&counted) < both, "what is not shown goes");
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use octolume::plan::{Asked, Pass, SceneFacts, State};
 use octolume::scene::{Light, LightKind, Material, OrbitCamera, Scene, Trs};
 use octolume::settings::lighting::{LightEdit, Opacity, Shadows, SunShines};
-use octolume::settings::{ColorBy, Lookup, Sampling, Settings, SliceValue, View};
+use octolume::settings::{ColorBy, Lookup, MethodSettings, Sampling, Settings, SliceValue, View};
 use octolume::stages::sample::Sampler;
 
 use crate::plan::{Counted, RIGID, changed, first, other, reason, running};
@@ -24,7 +24,7 @@ const LIGHT_PASSES: [Pass; 8] = [
 
 fn radiance() -> Settings {
     let mut settings = Settings::default();
-    settings.look.color = ColorBy::Radiance;
+    settings.method.look.color = ColorBy::Radiance;
     settings
 }
 
@@ -59,12 +59,12 @@ fn each_kind_of_light_calls_for_its_own_passes() {
     let emissive = SceneFacts { emissive_voxels: 9, ..RIGID };
     assert_eq!(of(&emissive, &radiance()), [GatherEmission, InjectLight, AverageLight]);
     let mut settings = radiance();
-    settings.lighting.emission = 0.0;
+    settings.method.lighting.emission = 0.0;
     assert_eq!(of(&emissive, &settings), [], "switched off");
-    settings.lighting.sky_nits = [1.0; 3];
+    settings.method.lighting.sky_nits = [1.0; 3];
     assert_eq!(of(&RIGID, &settings), [GatherSky, InjectLight, AverageLight]);
-    settings.lighting.bounces = 2;
-    settings.look.color = ColorBy::Irradiance;
+    settings.method.lighting.bounces = 2;
+    settings.method.look.color = ColorBy::Irradiance;
     assert_eq!(of(&RIGID, &settings), [GatherSky, InjectLight, AverageLight, Bounces, AverageIrradiance]);
 }
 
@@ -72,10 +72,10 @@ fn each_kind_of_light_calls_for_its_own_passes() {
 fn shadow_maps_are_drawn_only_where_they_are_read() {
     let mut settings = radiance();
     for (shadows, why) in [(Shadows::March, "shadows are marched"), (Shadows::Off, "shadows are off")] {
-        settings.lighting.shadows = shadows;
+        settings.method.lighting.shadows = shadows;
         assert_eq!(reason(&first(&LIT, &settings), Pass::DrawShadows), (State::Skip, why));
     }
-    settings.look.view = View::ShadowMap;
+    settings.method.look.view = View::ShadowMap;
     assert_eq!(running(&first(&LIT, &settings)), [Pass::DrawShadows, Pass::ShowShadowMap], "no octree");
     let bare = SceneFacts { triangles: 0, ..LIT };
     assert!(first(&bare, &settings).is_idle());
@@ -97,20 +97,20 @@ fn an_edited_light_is_injected_and_averaged_alone_and_a_moved_one_mapped_too() {
 fn pointers_are_linked_where_they_are_followed_or_shown() {
     let mut settings = Settings::default();
     assert_eq!(reason(&first(&RIGID, &settings), Pass::LinkNodes).0, State::Skip);
-    settings.look.pointers = true;
+    settings.method.look.pointers = true;
     assert!(first(&RIGID, &settings).runs(Pass::LinkNodes));
-    settings.look.pointers = false;
-    settings.look.view = View::Slice;
+    settings.method.look.pointers = false;
+    settings.method.look.view = View::Slice;
     assert!(!first(&RIGID, &settings).runs(Pass::LinkNodes), "ranks need none");
-    settings.look.slice.lookup = Lookup::NodePointers;
+    settings.method.look.slice.lookup = Lookup::NodePointers;
     assert!(first(&RIGID, &settings).runs(Pass::LinkNodes));
 }
 
 #[test]
 fn a_slice_of_occupancy_needs_the_store_but_no_light() {
     let mut settings = Settings::default();
-    settings.look.view = View::Slice;
-    settings.look.slice.value = SliceValue::Occupancy;
+    settings.method.look.view = View::Slice;
+    settings.method.look.slice.value = SliceValue::Occupancy;
     let plan = first(&RIGID, &settings);
     assert!(plan.runs(Pass::InjectLight) && plan.runs(Pass::AverageLight) && plan.runs(Pass::SliceOctree));
     assert_eq!(reason(&plan, Pass::Illuminate), (State::Skip, "only opacity is looked at"));
@@ -125,6 +125,11 @@ fn lamp_scene() -> Scene {
     scene
 }
 
+fn show_radiance(counted: &mut Counted) {
+    let discretization = counted.settings.method.discretization;
+    counted.settings.method = MethodSettings { discretization, ..radiance().method };
+}
+
 fn labels(counted: &Counted) -> Vec<String> {
     counted.engine.memory().into_iter().map(|buffer| buffer.label).collect()
 }
@@ -132,8 +137,8 @@ fn labels(counted: &Counted) -> Vec<String> {
 #[test]
 fn a_scene_in_the_dark_has_no_buffer_of_light() {
     let mut counted = Counted::new(cube_scene(Trs::default()));
-    counted.settings = Settings { discretization: counted.settings.discretization, ..radiance() };
-    counted.settings.lighting.sun.shines = SunShines::Never;
+    show_radiance(&mut counted);
+    counted.settings.method.lighting.sun.shines = SunShines::Never;
     counted.frame();
     let made = labels(&counted);
     assert!(
@@ -145,20 +150,20 @@ fn a_scene_in_the_dark_has_no_buffer_of_light() {
 #[test]
 fn frames_in_light_run_what_the_plan_says_and_nothing_when_still() {
     let mut counted = Counted::new(lamp_scene());
-    counted.settings = Settings { discretization: counted.settings.discretization, ..radiance() };
-    counted.settings.lighting.bounces = 1;
+    show_radiance(&mut counted);
+    counted.settings.method.lighting.bounces = 1;
     let (first, _) = counted.frame();
     assert!(first.runs(Pass::DrawShadows) && first.runs(Pass::Bounces) && first.runs(Pass::MarchLight));
     assert!(counted.frame().0.is_idle());
-    counted.settings.look.camera = Some(OrbitCamera::default());
+    counted.settings.shot.camera = Some(OrbitCamera::default());
     assert_eq!(running(&counted.frame().0), [Pass::MarchLight]);
     let edit = LightEdit { on: true, kind: LightKind::Directional, color: [1.0, 0.5, 0.0], intensity: 3.0 };
-    counted.settings.lighting.edits.insert(1, edit);
+    counted.settings.method.lighting.edits.insert(1, edit);
     let ran = [Pass::Illuminate, Pass::InjectLight, Pass::AverageLight, Pass::Bounces, Pass::MarchLight];
     assert_eq!(running(&counted.frame().0), ran);
-    counted.settings.look.color = ColorBy::Irradiance;
+    counted.settings.method.look.color = ColorBy::Irradiance;
     assert_eq!(running(&counted.frame().0), [Pass::AverageIrradiance, Pass::MarchLight]);
-    counted.settings.lighting.opacity = Opacity::Directional;
+    counted.settings.method.lighting.opacity = Opacity::Directional;
     assert!(counted.frame().0.runs(Pass::AverageLight));
     assert!(counted.frame().0.is_idle());
 }
@@ -169,10 +174,10 @@ fn emission_is_gathered_once_a_build() {
     scene.materials.push(Material { emissive: [4.0, 2.0, 0.0], ..Material::default() });
     scene.meshes[0].primitives[0].material = Some(0);
     let mut counted = Counted::new(scene);
-    counted.settings = Settings { discretization: counted.settings.discretization, ..radiance() };
+    show_radiance(&mut counted);
     assert!(counted.frame().0.runs(Pass::GatherEmission));
     assert!(!labels(&counted).iter().any(|label| label.contains("shadow")), "our own sun stays away");
-    counted.settings.lighting.emission = 2.0;
+    counted.settings.method.lighting.emission = 2.0;
     let again = counted.frame().0;
     assert!(again.runs(Pass::InjectLight) && !again.runs(Pass::GatherEmission));
     // 4 nits times two, mean over a scene that emits everywhere: an eighth of green is blue's nothing.
@@ -185,14 +190,14 @@ fn emission_is_gathered_once_a_build() {
 #[test]
 fn the_camera_changes_no_bit_of_light() {
     let mut counted = Counted::new(lamp_scene());
-    counted.settings = Settings { discretization: counted.settings.discretization, ..radiance() };
-    counted.settings.lighting.bounces = 1;
+    show_radiance(&mut counted);
+    counted.settings.method.lighting.bounces = 1;
     counted.frame();
     let places = [[32.0, 32.0, 32.0, 4.0], [20.0, 31.0, 30.0, 1.0], [16.5, 40.0, 16.5, 9.0]];
     let sampler = Sampler { sampling: Sampling::Quadrilinear, ..Sampler::default() };
     let sampled = |counted: &Counted| counted.engine.sample(&sampler, [0.0, 1.0, 0.0], &places).expect("light").0;
     let before = sampled(&counted);
-    counted.settings.look.camera = Some(OrbitCamera::default());
+    counted.settings.shot.camera = Some(OrbitCamera::default());
     // Samples are no pass of a frame, so this one is not counted.
     counted.engine.request(&counted.settings, [32, 32]).expect("a request");
     counted.engine.run_to_end().expect("a frame");
@@ -203,16 +208,16 @@ fn the_camera_changes_no_bit_of_light() {
 #[test]
 fn what_came_before_changes_no_bit_of_light() {
     let settings_at = |counted: &mut Counted, time_secs: f64| {
-        counted.settings.motion.time_secs = time_secs;
+        counted.settings.shot.motion.time_secs = time_secs;
         counted.frame();
         counted.engine.read_image().expect("a picture").into_raw()
     };
     let lit = |scene: Scene| {
         let mut counted = Counted::new(scene);
-        counted.settings = Settings { discretization: counted.settings.discretization, ..radiance() };
-        counted.settings.lighting.bounces = 2;
-        counted.settings.lighting.sky_nits = [100.0; 3];
-        counted.settings.lighting.sun.direction = DVec3::new(0.2, -1.0, 0.1).to_array();
+        show_radiance(&mut counted);
+        counted.settings.method.lighting.bounces = 2;
+        counted.settings.method.lighting.sky_nits = [100.0; 3];
+        counted.settings.method.lighting.sun.direction = DVec3::new(0.2, -1.0, 0.1).to_array();
         counted
     };
     let fresh = settings_at(&mut lit(sliding_scene()), 0.7);

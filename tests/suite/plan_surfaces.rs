@@ -20,8 +20,8 @@ const SHOWN: [Pass; 3] = [Pass::ComposeSurfaces, Pass::MeasureExposure, Pass::Sh
 
 fn showing(surface: SurfaceView) -> Settings {
     let mut settings = Settings::default();
-    settings.look.view = View::Surfaces;
-    settings.look.surface = surface;
+    settings.method.look.view = View::Surfaces;
+    settings.method.look.surface = surface;
     settings
 }
 
@@ -68,8 +68,8 @@ fn a_sun_on_matte_surfaces_calls_for_diffuse_cones_alone() {
 #[test]
 fn cones_that_are_off_are_not_traced() {
     let mut settings = showing(SurfaceView::Final);
-    settings.cone_tracing.diffuse = false;
-    settings.cone_tracing.specular = false;
+    settings.method.cone_tracing.diffuse = false;
+    settings.method.cone_tracing.specular = false;
     let dark = first(&GLOSSY, &settings);
     assert_eq!(reason(&dark, Pass::TraceDiffuse), (State::Skip, "diffuse cones are off"));
     assert_eq!(reason(&dark, Pass::TraceSpecular), (State::Skip, "the specular cone is off"));
@@ -80,11 +80,11 @@ fn cones_that_are_off_are_not_traced() {
 #[test]
 fn occlusion_alone_reads_opacity_and_no_light() {
     let mut settings = showing(SurfaceView::Final);
-    settings.cone_tracing.diffuse = false;
-    settings.cone_tracing.specular = false;
-    settings.cone_tracing.ambient_occlusion = true;
+    settings.method.cone_tracing.diffuse = false;
+    settings.method.cone_tracing.specular = false;
+    settings.method.cone_tracing.ambient_occlusion = true;
     assert!(!first(&SUN, &settings).runs(Pass::TraceDiffuse), "there is no sky to occlude");
-    settings.lighting.sky_nits = [1.0; 3];
+    settings.method.lighting.sky_nits = [1.0; 3];
     let guessed = first(&SUN, &settings);
     assert!(guessed.runs(Pass::TraceDiffuse) && guessed.runs(Pass::AverageLight));
     assert_eq!(reason(&guessed, Pass::Illuminate), (State::Skip, "only opacity is looked at"));
@@ -150,15 +150,15 @@ fn a_changed_light_draws_no_surface() {
 #[test]
 fn pixels_that_share_no_cones_need_no_filter() {
     let mut settings = showing(SurfaceView::Final);
-    settings.cone_tracing.half_resolution = false;
+    settings.method.cone_tracing.half_resolution = false;
     let shared = first(&GLOSSY, &settings);
     assert!(shared.runs(Pass::BlurDiffuse));
     assert_eq!(reason(&shared, Pass::UpsampleDiffuse), (State::Skip, "every pixel sends out cones"));
-    settings.cone_tracing.pattern_px = 1;
+    settings.method.cone_tracing.pattern_px = 1;
     let whole = first(&GLOSSY, &settings);
     assert_eq!(reason(&whole, Pass::BlurDiffuse), (State::Skip, "every pixel has all its cones"));
     assert_eq!(reason(&whole, Pass::UpsampleSpecular), (State::Skip, "every pixel sends out its cone"));
-    settings.cone_tracing.indirect_px = Some([1280, 720]);
+    settings.method.cone_tracing.indirect_px = Some([1280, 720]);
     assert!(!first(&GLOSSY, &settings).runs(Pass::UpsampleDiffuse), "the picture is no larger");
     let large = SceneFacts { picture_px: [1920, 1080], ..GLOSSY };
     let paper = first(&large, &settings);
@@ -169,19 +169,19 @@ fn pixels_that_share_no_cones_need_no_filter() {
 fn marched_shadows_and_pointers_ask_the_octree() {
     let mut settings = showing(SurfaceView::Direct);
     assert!(!builds_octree(&first(&SUN, &settings)));
-    settings.lighting.shadows = Shadows::March;
+    settings.method.lighting.shadows = Shadows::March;
     let marched = first(&SUN, &settings);
     assert!(builds_octree(&marched) && marched.runs(Pass::LightByMarching));
     assert!(!marched.runs(Pass::DrawShadows) && !marched.runs(Pass::AverageLight));
-    settings.look.surface = SurfaceView::Diffuse;
-    settings.cone_tracing.lookup = Lookup::BlockPointers;
+    settings.method.look.surface = SurfaceView::Diffuse;
+    settings.method.cone_tracing.lookup = Lookup::BlockPointers;
     assert!(first(&SUN, &settings).runs(Pass::LinkNodes));
 }
 
 #[test]
 fn a_set_exposure_is_not_measured() {
     let mut settings = showing(SurfaceView::Final);
-    settings.look.exposure_stops = Some(-3.0);
+    settings.method.look.exposure_stops = Some(-3.0);
     let plan = first(&SUN, &settings);
     assert_eq!(reason(&plan, Pass::MeasureExposure), (State::Skip, "the exposure is set"));
 }

@@ -7,7 +7,7 @@ use octolume::engine::Engine;
 use octolume::prepare::{FrameMatrices, Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{LocalTransform, Node, Scene, Trs};
-use octolume::settings::{Discretization, Hidden, MotionSettings, Settings, VoxelAnchor};
+use octolume::settings::{Discretization, Hidden, MethodSettings, MotionSettings, Settings, VoxelAnchor};
 
 use crate::device;
 use crate::scenes::{at, cube_scene, node, skinned_scene};
@@ -16,11 +16,11 @@ const SPAN: f64 = 0.06;
 
 fn settings() -> Settings {
     let discretization = Discretization { grid: 64, span: Some(SPAN), ..Discretization::default() };
-    Settings { discretization, ..Settings::default() }
+    Settings { method: MethodSettings { discretization, ..MethodSettings::default() }, ..Settings::default() }
 }
 
 fn prepared(scene: Scene) -> Prepared {
-    prepare(Arc::new(scene), &settings().discretization, None, &Progress::default())
+    prepare(Arc::new(scene), &settings().method.discretization, None, &Progress::default())
         .unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -43,38 +43,38 @@ fn scene(material: Material) -> Scene {
 
 fn settings() -> Settings {
     let mut settings = Settings::default();
-    settings.discretization.grid = 64;
-    settings.look.color = ColorBy::Radiance;
-    settings.lighting.shadow_map_px = 1024;
+    settings.method.discretization.grid = 64;
+    settings.method.look.color = ColorBy::Radiance;
+    settings.method.lighting.shadow_map_px = 1024;
     settings
 }
 
 fn under_sun(direction: [f64; 3]) -> Settings {
     let mut settings = settings();
-    (settings.lighting.sun.direction, settings.lighting.sun.shines) = (direction, SunShines::Always);
+    (settings.method.lighting.sun.direction, settings.method.lighting.sun.shines) = (direction, SunShines::Always);
     settings
 }
 
 fn under_bulb() -> Settings {
     let mut settings = settings();
-    settings.lighting.sun.shines = SunShines::Never;
+    settings.method.lighting.sun.shines = SunShines::Never;
     let bulb = AddedLight::new("bulb".to_owned(), LightKind::POINT);
-    settings.lighting.added.push(AddedLight { position: [0.0, BULB_HEIGHT, 0.0], ..bulb });
+    settings.method.lighting.added.push(AddedLight { position: [0.0, BULB_HEIGHT, 0.0], ..bulb });
     settings
 }
 
 fn prepared(scene: Scene) -> Arc<Prepared> {
-    let prepared = prepare(Arc::new(scene), &settings().discretization, None, &Progress::default());
+    let prepared = prepare(Arc::new(scene), &settings().method.discretization, None, &Progress::default());
     Arc::new(prepared.unwrap_or_else(|error| panic!("{error}")))
 }
 
 fn posed(prepared: &Prepared) -> PosedTriangles<'_> {
-    PosedTriangles::new(prepared, &settings().motion, &Hidden::default()).expect("a pose")
+    PosedTriangles::new(prepared, &settings().shot.motion, &Hidden::default()).expect("a pose")
 }
 
 fn lit(engine: &mut Engine, settings: &Settings, shadows: Shadows) -> Vec<[f32; 3]> {
     let mut settings = settings.clone();
-    settings.lighting.shadows = shadows;
+    settings.method.lighting.shadows = shadows;
     engine.request(&settings, [1, 1]).expect("a frame");
     engine.run_to_end().expect("runs");
     engine.read_irradiance().expect("is lit")
@@ -88,8 +88,8 @@ fn errors(settings: &Settings) -> ([ShadowError; 3], f64) {
     let found = [Shadows::Map, Shadows::March, Shadows::Off].map(|shadows| lit(&mut engine, settings, shadows));
     let triangles = posed(&prepared);
     let leaves = LeafPlaces::new(&engine.read_voxels().expect("is built"), &prepared.grid);
-    let pose = prepared.pose(&settings.motion).expect("a pose");
-    let lights = posed_lights(&prepared.scene, &pose, &settings.lighting, &[true; 2], false);
+    let pose = prepared.pose(&settings.shot.motion).expect("a pose");
+    let lights = posed_lights(&prepared.scene, &pose, &settings.method.lighting, &[true; 2], false);
     let points = spread(&triangles, POINTS);
     let truth = TrueShadows::new(&triangles, &points, &lights[0], &prepared.grid, &leaves);
     (found.each_ref().map(|shadowed| truth.compare(shadowed, &found[2])), prepared.grid.span)
@@ -220,14 +220,16 @@ fn one_light_alone_is_what_is_left() {
     scene.nodes[1].light = Some(0);
     let prepared = prepared(scene);
     let mut settings = under_sun([0.0, -1.0, 0.0]);
-    settings.lighting.added = under_bulb().lighting.added;
-    settings.lighting.sky_nits = [1.0; 3];
+    settings.method.lighting.added = under_bulb().method.lighting.added;
+    settings.method.lighting.sky_nits = [1.0; 3];
     let known = prepared.known_lights(&settings).expect("known");
     assert_eq!(known.len(), 3);
     for light in &known {
-        let lighting = alone(&settings.lighting, &known, light.source);
+        let lighting = alone(&settings.method.lighting, &known, light.source);
         assert_eq!((lighting.sky_nits, lighting.emission), ([0.0; 3], 0.0));
-        let left = prepared.known_lights(&Settings { lighting, ..settings.clone() }).expect("known");
+        let mut left = settings.clone();
+        left.method.lighting = lighting;
+        let left = prepared.known_lights(&left).expect("known");
         let shining: Vec<(LightSource, LightEdit)> =
             left.iter().filter(|light| light.shines == Shines::Yes).map(|light| (light.source, light.light)).collect();
         assert_eq!(shining, [(light.source, light.light)]);
@@ -241,12 +243,12 @@ fn irradiance_of_what_is_not_lit_is_an_error() {
     let mut engine = Engine::new(Arc::new(device::open()));
     engine.set_prepared(Some(prepared(scene(Material::default()))));
     let mut settings = under_bulb();
-    settings.look.color = ColorBy::Albedo;
+    settings.method.look.color = ColorBy::Albedo;
     engine.request(&settings, [1, 1]).expect("a frame");
     engine.run_to_end().expect("runs");
     let error = engine.read_irradiance().expect_err("not lit").to_string();
     assert!(error.contains("irradiance") && error.contains("before any stage has made it"), "{error}");
-    settings.look.color = ColorBy::Radiance;
+    settings.method.look.color = ColorBy::Radiance;
     let lit = lit(&mut engine, &settings, Shadows::Off);
     assert_eq!(lit.len(), engine.read_voxels().expect("is built").cells.len());
     assert!(lit.iter().flatten().all(|lux| lux.is_finite() && *lux >= 0.0) && lit.iter().any(|lux| lux[0] > 0.0));

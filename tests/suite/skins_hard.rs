@@ -141,18 +141,19 @@ fn moved_voxels_are_where_the_surface_is() {
         let grid = if rig.joints > 64 { 256 } else { 64 };
         let prepared = Arc::new(prepared(opened(&rig), grid));
         let mut settings = Settings::default();
-        settings.discretization = Discretization {
+        settings.method.discretization = Discretization {
             grid,
             mode: VoxelizationMode::Conservative,
             filter: Filter::Nearest,
-            ..settings.discretization
+            ..settings.method.discretization
         };
-        settings.motion.clip = Some("bend".to_owned());
-        settings.motion.time_secs = 1.0;
-        settings.look.view = octolume::settings::View::Voxels;
+        settings.shot.motion.clip = Some("bend".to_owned());
+        settings.shot.motion.time_secs = 1.0;
+        settings.method.look.view = octolume::settings::View::Voxels;
         let moved = moved_cells(&mut engine, &prepared, &settings);
-        let exact =
-            prepared.exact_voxels(&settings.motion, &Hidden::default(), &Progress::default()).expect("not cancelled");
+        let exact = prepared
+            .exact_voxels(&settings.shot.motion, &Hidden::default(), &Progress::default())
+            .expect("not cancelled");
         let exact: BTreeSet<[i32; 3]> = exact.voxels.iter().map(|voxel| cell_of(voxel.key)).collect();
         assert!(exact.len() > 300, "{name}: {} cells", exact.len());
         let holes = exact.iter().filter(|&&cell| !has_neighbour(&moved, cell)).count();

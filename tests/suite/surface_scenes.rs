@@ -44,15 +44,15 @@ impl RealScene {
     fn opened(&self) -> Option<(Prepared, Settings)> {
         let scene = scene::load::open(&folder()?.join(self.file), &Progress::default()).expect("a scene");
         let mut settings = Settings::default();
-        settings.discretization.grid = 64;
-        settings.look.camera = self.from.map(|[eye, target]| OrbitCamera { eye, target, fov_y_degrees: 60.0 });
-        let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default());
+        settings.method.discretization.grid = 64;
+        settings.shot.camera = self.from.map(|[eye, target]| OrbitCamera { eye, target, fov_y_degrees: 60.0 });
+        let prepared = prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default());
         Some((prepared.expect("fits"), settings))
     }
 }
 
 fn shot<'a>(prepared: &'a Prepared, settings: &Settings) -> Shot<'a> {
-    let pose = prepared.pose(&settings.motion).expect("a pose");
+    let pose = prepared.pose(&settings.shot.motion).expect("a pose");
     let camera = prepared.camera(settings, &pose, SIZE_PX);
     Shot { pose, ..Shot::new(&prepared.scene, camera, prepared.grid, SIZE_PX) }
 }
@@ -125,7 +125,7 @@ fn real_scenes_are_where_rays_meet_them() {
     for real in real_scenes() {
         let Some((prepared, settings)) = real.opened() else { continue };
         let shot = shot(&prepared, &settings);
-        let posed = PosedTriangles::new(&prepared, &settings.motion, &Hidden::default()).expect("a pose");
+        let posed = PosedTriangles::new(&prepared, &settings.shot.motion, &Hidden::default()).expect("a pose");
         let found = agreement(&prepared, &shot, &posed);
         // Triangles are drawn from corners at 1/256 of a pixel: at an edge a ray may meet the neighbour.
         assert!(found.texels > 2000, "{}: {found:?}", real.file);
@@ -138,7 +138,7 @@ fn real_scenes_are_where_rays_meet_them() {
 fn direct_light_of_real_scenes_is_the_path_tracers() {
     for real in real_scenes() {
         let Some((prepared, mut settings)) = real.opened() else { continue };
-        settings.lighting.sun.shines = SunShines::Always;
+        settings.method.lighting.sun.shines = SunShines::Always;
         let found = drawn_light(&prepared, &settings);
         let truth = traced_light(&prepared, &settings);
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
@@ -157,9 +157,9 @@ fn direct_light_of_real_scenes_is_the_path_tracers() {
 /// Green of every pixel, nits.
 fn drawn_light(prepared: &Prepared, settings: &Settings) -> Vec<f64> {
     let shot = shot(prepared, settings);
-    let shown = settings.visibility.shown_nodes(&prepared.scene).expect("all");
-    let emits = prepared.emits(&settings.lighting);
-    let lights = posed_lights(&prepared.scene, &shot.pose, &settings.lighting, &shown, emits);
+    let shown = settings.shot.visibility.shown_nodes(&prepared.scene).expect("all");
+    let emits = prepared.emits(&settings.method.lighting);
+    let lights = posed_lights(&prepared.scene, &shot.pose, &settings.method.lighting, &shown, emits);
     let found = shot.lit(&shot.drawn(), &lights, &Hiding::Map(1024));
     found.iter().map(|rgb| f64::from(rgb[1])).collect()
 }

@@ -144,9 +144,14 @@ fn a_long_object_slides_through_the_grid_without_a_gap() {
             let inside: Vec<usize> = (0..prepared.parts.len()).filter(|&part| frame.resident[part]).collect();
             assert!(inside.len() < prepared.parts.len(), "some of it is outside");
             parts_seen.extend(inside);
-            let mut settings = Settings { motion, ..Settings::default() };
-            settings.discretization =
-                Discretization { grid: 64, span: Some(SPAN), filter: Filter::Nearest, ..settings.discretization };
+            let mut settings = Settings::default();
+            settings.shot.motion = motion;
+            settings.method.discretization = Discretization {
+                grid: 64,
+                span: Some(SPAN),
+                filter: Filter::Nearest,
+                ..settings.method.discretization
+            };
             engine.request(&settings, [1, 1]).expect("requested");
             engine.run_to_end().expect("runs");
             let found: BTreeSet<[i32; 3]> = engine.read_voxels().expect("read").cells.into_iter().collect();

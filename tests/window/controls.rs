@@ -2,8 +2,9 @@
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
+use octolume::settings::{NodeNames, Settings};
 
-use crate::rig::{Window, assert_changed, difference};
+use crate::rig::{Window, assert_changed, difference, wgpu_setup};
 
 #[test]
 fn every_control_of_the_picture_changes_pixels_and_back() {
@@ -51,7 +52,7 @@ fn levels_colours_and_grids_change_the_picture() {
     }
     window.choose("Grid", "128³ cells");
     assert_changed(&before, &window.view(), "another grid");
-    assert_eq!(window.app().settings().discretization.grid, 128);
+    assert_eq!(window.app().settings().method.discretization.grid, 128);
 }
 
 #[test]
@@ -67,15 +68,27 @@ fn the_timeline_moves_the_scene_and_scrubbing_returns_to_the_same_picture() {
 
     assert_eq!(difference(&stepped, &window.view()), 0, "scrubbed to the time stepped to");
     window.choose("Clip", "Rest pose");
-    assert_eq!(window.app().settings().motion.clip.as_deref(), Some(""));
+    assert_eq!(window.app().settings().shot.motion.clip.as_deref(), Some(""));
 
     window.choose("Clip", "walk (10.00 s)");
     window.0.get_by_label("Play").click();
     window.0.run_steps(8);
     window.0.get_by_label("Pause").click();
     window.settle();
-    assert!(window.app().settings().motion.time_secs > 0.0);
+    assert!(window.app().settings().shot.motion.time_secs > 0.0);
     window.press(Modifiers::NONE, Key::ArrowLeft);
-    let thirtieths = window.app().settings().motion.time_secs * 30.0;
+    let thirtieths = window.app().settings().shot.motion.time_secs * 30.0;
     assert!((thirtieths - thirtieths.round()).abs() < 1e-9, "a step lands on a thirtieth");
+}
+
+#[test]
+fn what_does_not_fit_a_smaller_grid_is_told() {
+    let mut settings = Settings::default();
+    (settings.method.look.level, settings.method.discretization.dense_level) = (Some(7), Some(6));
+    let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
+    let level = "level 7 is not one of 0 (the root) to 6 (the leaves): the leaves are shown";
+    let dense = "dense level 6 does not fit a grid of 64 cells";
+    assert_eq!([window.log_count(level), window.log_count(dense)], [0, 0]);
+    window.choose("Grid", "64³ cells");
+    assert_eq!([window.log_count(level), window.log_count(dense)], [1, 1]);
 }

@@ -15,7 +15,7 @@ fn window() -> Window {
 }
 
 fn lighting(window: &Window) -> &Lighting {
-    &window.app().settings().lighting
+    &window.app().settings().method.lighting
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn our_own_sun_is_switched_and_turned() {
 fn lights_are_added_at_the_camera_changed_and_removed() {
     let mut window = window();
     window.choose("Add light", "Spot light");
-    let camera = window.app().settings().look.camera.expect("the camera of the file");
+    let camera = window.app().settings().shot.camera.expect("the camera of the file");
     let added = lighting(&window).added[0].clone();
     assert_eq!((added.name.as_str(), added.position), ("light 1", camera.eye.to_array()));
     for (control, value) in [("Intensity", 40.0), ("Inner cone", 10.0), ("Outer cone", 20.0), ("Light x", 1.5)] {
@@ -111,39 +111,39 @@ fn slices_shadow_maps_and_exposure_are_set() {
     window.choose("Look-up", "Block pointers");
     window.set("Width", 4.0);
     window.click("Logarithmic");
-    let look = window.app().settings().look;
+    let look = window.app().settings().method.look;
     assert_eq!((look.view, look.slice.axis, look.slice.height), (View::Slice, SliceAxis::X, 0.3));
     assert_eq!((look.slice.value, look.slice.sampling), (SliceValue::Occupancy, Sampling::Trilinear));
     assert_eq!((look.slice.lookup, look.slice.width_cells), (Lookup::BlockPointers, 4.0));
     assert!(!look.slice.logarithmic);
     window.click("Shadow map");
-    assert_eq!(window.app().settings().look.view, View::ShadowMap);
+    assert_eq!(window.app().settings().method.look.view, View::ShadowMap);
     window.choose("Map of", "0: sun");
     window.click("Voxels");
     window.choose("Colour", "Radiance");
     window.click("Auto exposure");
     window.set("Exposure", -3.0);
-    assert_eq!(window.app().settings().look.exposure_stops, Some(-3.0));
+    assert_eq!(window.app().settings().method.look.exposure_stops, Some(-3.0));
     window.click("Auto exposure");
-    assert_eq!(window.app().settings().look.exposure_stops, None);
+    assert_eq!(window.app().settings().method.look.exposure_stops, None);
 }
 
 #[test]
 fn looking_at_settings_changes_none_of_them() {
     let mut settings = crate::rig::small_grid();
-    settings.lighting.shadow_offset_voxels = Some(1.234_567_8);
-    settings.lighting.cone_degrees = 33.333_333;
-    settings.lighting.sky_nits = [1e12, 0.123_456_789, 3.0];
-    settings.look.slice.height = 0.123_456_789;
-    settings.look.slice.width_cells = 1.234_567_8;
-    settings.look.view = View::Slice;
+    settings.method.lighting.shadow_offset_voxels = Some(1.234_567_8);
+    settings.method.lighting.cone_degrees = 33.333_333;
+    settings.method.lighting.sky_nits = [1e12, 0.123_456_789, 3.0];
+    settings.method.look.slice.height = 0.123_456_789;
+    settings.method.look.slice.width_cells = 1.234_567_8;
+    settings.method.look.view = View::Slice;
     let names = octolume::settings::NodeNames::default();
     let mut window = Window::with(crate::rig::wgpu_setup(), "courtyard", settings.clone(), names);
     assert!(window.0.query_by_label("Logarithmic").is_some());
     ["Scene", "Discretization", "Filter", "View", "Light", "Own sun", "sun"]
         .into_iter()
         .for_each(|name| window.click(name));
-    assert_eq!(*lighting(&window), settings.lighting);
-    assert_eq!(window.app().settings().look.slice, settings.look.slice);
+    assert_eq!(*lighting(&window), settings.method.lighting);
+    assert_eq!(window.app().settings().method.look.slice, settings.method.look.slice);
     assert!(window.0.query_by_label("Reset light").is_some());
 }

@@ -28,7 +28,9 @@ use std::time::Duration;
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable as _;
 use octolume::app::App;
+use octolume::digest::Digest;
 use octolume::export::read_settings;
+use octolume::scene::builtin;
 use octolume::settings::{Filter, View};
 
 use files::Dropped;
@@ -68,12 +70,15 @@ fn a_screenshot_carries_the_settings_and_has_the_size_of_the_view() {
     window.set("Level", 5.0);
     window.click("Screenshot");
     let file = folder.path().join("octolume-courtyard-1.png");
-    let (settings, size_px) = read_settings(&file).expect("settings in the picture");
-    assert_eq!(settings.discretization.filter, Filter::Nearest);
-    assert_eq!(settings.look.level, Some(5));
-    assert!(settings.look.camera.is_some(), "the camera is told, also where it frames everything");
+    let settings = read_settings(&file).expect("settings in the picture");
+    assert_eq!(settings.method.discretization.filter, Filter::Nearest);
+    assert_eq!(settings.method.look.level, Some(5));
+    assert!(settings.shot.camera.is_some(), "the camera is told, also where it frames everything");
     let rect = window.view_rect();
-    assert_eq!(size_px, Some([rect.width().round() as u32, rect.height().round() as u32]));
+    assert_eq!(settings.shot.size_px, Some([rect.width().round() as u32, rect.height().round() as u32]));
+    let scene = settings.shot.scene.expect("the scene is told");
+    let bytes = builtin::bytes("courtyard").expect("a built-in scene");
+    assert_eq!((scene.source.as_str(), scene.digest), ("courtyard", Some(Digest::of_file(bytes))));
     window.press(Modifiers::COMMAND, Key::S);
     assert!(folder.path().join("octolume-courtyard-2.png").exists());
 }
@@ -122,7 +127,7 @@ fn a_lost_gpu_keeps_scene_and_settings_for_a_new_one() {
     let kept = window.app().rescued().expect("scene and settings are kept");
     drop(window);
     let mut again = Window::build(wgpu_setup(), move |context| App::again(context, kept).expect("a window"));
-    assert_eq!(again.app().settings().look.level, Some(5));
+    assert_eq!(again.app().settings().method.look.level, Some(5));
     again.click("Split");
     again.outlast_notes();
     assert_eq!(difference(&before, &again.view()), 0, "the same picture on another device");
@@ -152,5 +157,5 @@ fn real_files_open_by_drop() {
     assert_changed(&courtyard, &window.view(), "another scene");
     assert!(window.0.query_all_by_label("Fox").next().is_some());
     window.click("Ghost");
-    assert_eq!(window.app().settings().look.view, View::Ghost);
+    assert_eq!(window.app().settings().method.look.view, View::Ghost);
 }

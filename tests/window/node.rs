@@ -70,7 +70,7 @@ fn pointers_are_followed_and_drawn() {
     assert!(window.0.query_by_role_and_label(egui::Role::Link, "Ahead x").is_none(), "no pointers are stored");
     let plain = window.view();
     window.click("Draw pointers");
-    assert!(window.app().settings().look.pointers);
+    assert!(window.app().settings().method.look.pointers);
     assert_changed(&plain, &window.view(), "drawing pointers");
     let (level, cell) = place(&window);
     window.click("Above");

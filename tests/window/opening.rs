@@ -51,7 +51,7 @@ fn cancelling_a_voxelization_keeps_the_voxels_that_are_there() {
     window.0.get_by_label("1024³ cells").click();
     window.0.step();
     window.cancel_at_once();
-    assert_eq!(window.app().settings().discretization.grid, 64);
+    assert_eq!(window.app().settings().method.discretization.grid, 64);
     assert_eq!(difference(&before, &window.view()), 0);
     assert_eq!(window.log_count("Cancelled."), 1);
 }
@@ -95,7 +95,7 @@ fn another_scale_factor_draws_as_many_pixels_as_the_screen_has() {
         window.click("Screenshot");
         let size = window.view_rect().size() * scale;
         let file = folder.path().join(format!("octolume-courtyard-{number}.png"));
-        let (_, size_px) = read_settings(&file).expect("a picture");
+        let size_px = read_settings(&file).expect("a picture").shot.size_px;
         assert_eq!(size_px, Some([size.x, size.y].map(|edge| edge.round() as u32)), "{scale}");
     }
 }

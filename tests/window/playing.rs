@@ -59,9 +59,9 @@ impl Window {
 fn a_picture_of_a_playing_clip_costs_one_window_frame() {
     let views: [(&str, Change); 4] = [
         ("voxels", |_| {}),
-        ("ghost, measured", |s| (s.look.view, s.look.accuracy) = (View::Ghost, true)),
-        ("radiance", |s| s.look.color = ColorBy::Radiance),
-        ("surfaces", |s| s.look.view = View::Surfaces),
+        ("ghost, measured", |s| (s.method.look.view, s.method.look.accuracy) = (View::Ghost, true)),
+        ("radiance", |s| s.method.look.color = ColorBy::Radiance),
+        ("surfaces", |s| s.method.look.view = View::Surfaces),
     ];
     for (name, set) in views {
         let mut window = playing(settings(set));
@@ -79,13 +79,13 @@ fn a_picture_of_a_playing_clip_costs_one_window_frame() {
 fn courtyard(settings: &Settings) -> Arc<Prepared> {
     let bytes = builtin::bytes("courtyard").expect("the built-in scene");
     let scene = load::open_bytes("courtyard", bytes, None, &Progress::default()).expect("opens");
-    let prepared = prepare(Arc::new(scene), &settings.discretization, None, &Progress::default());
+    let prepared = prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default());
     Arc::new(prepared.expect("voxelizes"))
 }
 
 /// Holes and spill of nearest and split at a moment, by an engine that was never asked for another.
 fn true_counts(engine: &mut Engine, prepared: &Arc<Prepared>, settings: &Settings) -> [(Option<u64>, Option<u64>); 2] {
-    let exact = prepared.exact(&settings.motion, &Default::default(), &Progress::default()).expect("an exact set");
+    let exact = prepared.exact(&settings.shot.motion, &Default::default(), &Progress::default()).expect("an exact set");
     engine.set_prepared(Some(Arc::clone(prepared)));
     engine.offer_exact(Arc::new(exact));
     engine.request(settings, [8, 8]).expect("a request");
@@ -100,7 +100,7 @@ fn counts(engine: &Engine) -> [(Option<u64>, Option<u64>); 2] {
 
 #[test]
 fn what_is_measured_is_of_the_pose_that_is_drawn_or_said_to_be_on_its_way() {
-    let settings = settings(|s| s.look.accuracy = true);
+    let settings = settings(|s| s.method.look.accuracy = true);
     let prepared = courtyard(&settings);
     let mut window = playing(settings.clone());
     let gpu = octolume::gpu::Gpu::headless(&octolume::stages::SHADERS, None).expect("a device");
@@ -125,7 +125,7 @@ impl Window {
         if engine.accuracy().is_none_or(|report| report.exact_cells.is_none()) {
             return false;
         }
-        assert_eq!(counts(engine), true_counts(fresh, prepared, drawn), "at {} s", drawn.motion.time_secs);
+        assert_eq!(counts(engine), true_counts(fresh, prepared, drawn), "at {} s", drawn.shot.motion.time_secs);
         true
     }
 }
@@ -151,8 +151,8 @@ fn a_screenshot_while_a_clip_plays_is_of_the_frame_on_screen() {
     }
     window.0.key_press_modifiers(Modifiers::NONE, Key::Space);
     window.settle();
-    let (settings, _) = read_settings(&file).expect("settings in the picture");
-    let saved = settings.motion.time_secs;
+    let settings = read_settings(&file).expect("settings in the picture");
+    let saved = settings.shot.motion.time_secs;
     assert!((before..=after).contains(&saved), "{saved} s, and {before} to {after} s were on screen");
-    assert_ne!(settings.motion.time_secs, window.app().settings().motion.time_secs);
+    assert_ne!(settings.shot.motion.time_secs, window.app().settings().shot.motion.time_secs);
 }

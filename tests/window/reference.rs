@@ -10,9 +10,9 @@ use crate::rig::{Window, assert_changed, difference, small_grid, wgpu_setup};
 /// The courtyard under a sky, its direct light shown, and the panel unfolded.
 fn window() -> Window {
     let mut settings = small_grid();
-    settings.look.view = View::Surfaces;
-    settings.look.surface = SurfaceView::Direct;
-    settings.lighting.sky_nits = [100.0; 3];
+    settings.method.look.view = View::Surfaces;
+    settings.method.look.surface = SurfaceView::Direct;
+    settings.method.lighting.sky_nits = [100.0; 3];
     let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
     ["Scene", "Discretization", "Filter", "Timings", "Octree", "Frame plan", "Reference"]
         .into_iter()
@@ -73,14 +73,14 @@ fn a_wipe_is_dragged_over_the_view() {
         pressed,
         modifiers: Modifiers::NONE,
     };
-    let camera = window.app().settings().look.camera;
+    let camera = window.app().settings().shot.camera;
     let aside = middle - vec2(100.0, 0.0);
     window.0.hover_at(middle);
     window.0.event(press(true, middle));
     window.0.hover_at(aside);
     window.0.event(press(false, aside));
     window.settle();
-    assert_eq!(window.app().settings().look.camera, camera, "the camera stays");
+    assert_eq!(window.app().settings().shot.camera, camera, "the camera stays");
     assert_changed(&half, &window.view(), "dragging the divider");
     window.click("Cones");
     assert_eq!(difference(&cones, &window.view()), 0);
@@ -140,8 +140,8 @@ fn what_lies_over_the_picture_is_saved_as_colours_and_as_light() {
     }
     let picture = |number: u32| {
         let file = folder.path().join(format!("octolume-courtyard-{number}.png"));
-        let (settings, _) = read_settings(&file).expect("settings");
-        assert_eq!(settings.look.surface, SurfaceView::Direct);
+        let settings = read_settings(&file).expect("settings");
+        assert_eq!(settings.method.look.surface, SurfaceView::Direct);
         image::open(file).expect("a picture").to_rgba8()
     };
     assert_changed(&picture(1), &picture(2), "saving paths");

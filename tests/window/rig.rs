@@ -33,7 +33,7 @@ pub fn new_device() -> egui_wgpu::WgpuSetup {
 
 pub fn small_grid() -> Settings {
     let mut settings = Settings::default();
-    settings.discretization.grid = 64;
+    settings.method.discretization.grid = 64;
     settings
 }
 

@@ -8,14 +8,14 @@ use crate::rig::{Window, small_grid, wgpu_setup};
 /// The courtyard with the view of surfaces, and what lies above the panel folded.
 fn window() -> Window {
     let mut settings = small_grid();
-    settings.look.view = View::Surfaces;
+    settings.method.look.view = View::Surfaces;
     let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
     ["Scene", "Discretization", "Filter"].into_iter().for_each(|section| window.click(section));
     window
 }
 
 fn cones(window: &Window) -> ConeTracing {
-    window.app().settings().cone_tracing
+    window.app().settings().method.cone_tracing
 }
 
 fn can_be_used(window: &Window, label: &str) -> bool {
@@ -28,7 +28,7 @@ fn can_be_used(window: &Window, label: &str) -> bool {
 fn parts_and_tone_curves_are_chosen() {
     let mut window = Window::open("courtyard");
     window.click("Surfaces");
-    assert_eq!(window.app().settings().look.view, View::Surfaces);
+    assert_eq!(window.app().settings().method.look.view, View::Surfaces);
     let parts = [
         ("Direct", SurfaceView::Direct),
         ("Diffuse", SurfaceView::Diffuse),
@@ -43,17 +43,17 @@ fn parts_and_tone_curves_are_chosen() {
     ];
     for (name, part) in parts {
         window.choose("Part", name);
-        assert_eq!(window.app().settings().look.surface, part);
+        assert_eq!(window.app().settings().method.look.surface, part);
         let is_toned = window.0.query_by_label("Reinhard").is_some();
         assert_eq!((is_toned, window.0.query_by_label("Auto exposure").is_some()), (part.is_light(), part.is_light()));
     }
     for (name, curve) in [("Reinhard", ToneCurve::Reinhard), ("Linear", ToneCurve::Linear), ("Film", ToneCurve::Aces)] {
         window.click(name);
-        assert_eq!(window.app().settings().look.tone_curve, curve);
+        assert_eq!(window.app().settings().method.look.tone_curve, curve);
     }
     window.click("Auto exposure");
     window.set("Exposure", -3.0);
-    assert_eq!(window.app().settings().look.exposure_stops, Some(-3.0));
+    assert_eq!(window.app().settings().method.look.exposure_stops, Some(-3.0));
 }
 
 #[test]
@@ -111,12 +111,12 @@ fn what_has_no_effect_cannot_be_set() {
 #[test]
 fn looking_at_cones_changes_none_of_them() {
     let mut settings = small_grid();
-    settings.look.view = View::Surfaces;
-    settings.cone_tracing.cone_degrees = 33.333_333;
-    settings.cone_tracing.step_diameters = 1.234_567_8;
-    settings.cone_tracing.occlusion_distance = Some(1e-9);
-    settings.cone_tracing.indirect_px = Some([333, 111]);
-    let set = settings.cone_tracing;
+    settings.method.look.view = View::Surfaces;
+    settings.method.cone_tracing.cone_degrees = 33.333_333;
+    settings.method.cone_tracing.step_diameters = 1.234_567_8;
+    settings.method.cone_tracing.occlusion_distance = Some(1e-9);
+    settings.method.cone_tracing.indirect_px = Some([333, 111]);
+    let set = settings.method.cone_tracing;
     let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
     ["Scene", "Discretization", "Filter", "Cone tracing"].into_iter().for_each(|section| window.click(section));
     assert!(window.0.query_all_by_label("Half resolution").next().is_some());

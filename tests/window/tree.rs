@@ -40,14 +40,14 @@ fn hiding_changes_the_picture_and_showing_brings_it_back() {
     window.click("Hide");
     let without = window.view();
     assert_changed(&all, &without, "hiding");
-    assert_eq!(window.app().settings().visibility.hidden.len(), 1);
+    assert_eq!(window.app().settings().shot.visibility.hidden.len(), 1);
     window.click_enabled("Show");
     assert_eq!(difference(&all, &window.view()), 0);
     window.press(Modifiers::NONE, Key::H);
     assert_eq!(difference(&without, &window.view()), 0, "H hides the selection");
     window.press(Modifiers::ALT, Key::H);
     assert_eq!(difference(&all, &window.view()), 0, "Alt+H shows everything");
-    assert!(window.app().settings().visibility.shows_all());
+    assert!(window.app().settings().shot.visibility.shows_all());
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn isolating_shows_one_alone_in_every_view() {
         assert_eq!(difference(&all, &window.view()), 0, "{view}");
     }
     window.click("Isolate");
-    assert_eq!(window.app().settings().visibility.only.len(), 1);
+    assert_eq!(window.app().settings().shot.visibility.only.len(), 1);
 }
 
 #[test]
@@ -93,9 +93,9 @@ fn the_menu_of_a_row_acts_on_its_node() {
     window.click_row("roofs", PointerButton::Secondary, 1);
     // The menu and the panel have a button each; the panel's is of no selection, and cannot be clicked.
     window.click_enabled("Hide");
-    assert_eq!(window.app().settings().visibility.hidden.len(), 1);
+    assert_eq!(window.app().settings().shot.visibility.hidden.len(), 1);
     window.select("court");
-    assert_eq!(window.app().settings().visibility.hidden.len(), 1, "the court is another node");
+    assert_eq!(window.app().settings().shot.visibility.hidden.len(), 1, "the court is another node");
 }
 
 #[test]
@@ -104,14 +104,14 @@ fn a_selected_node_is_framed_by_key_and_double_click() {
     let before = window.view();
     window.select("court");
     window.press(Modifiers::NONE, Key::F);
-    let court = window.app().settings().look.camera;
+    let court = window.app().settings().shot.camera;
     assert_changed(&before, &window.view(), "framing the court");
     window.click_row("roofs", PointerButton::Primary, 2);
-    let roofs = window.app().settings().look.camera;
+    let roofs = window.app().settings().shot.camera;
     assert!(roofs.is_some() && roofs != court, "a double click frames");
     window.click_row("court", PointerButton::Primary, 1);
     window.click("Frame");
-    let distance = window.app().settings().look.camera.map(|camera| camera.distance());
+    let distance = window.app().settings().shot.camera.map(|camera| camera.distance());
     let again = court.map(|camera| camera.distance());
     assert!(distance.zip(again).is_some_and(|(a, b)| (a - b).abs() < 1e-9 * b), "{distance:?} {again:?}");
 }
@@ -135,9 +135,9 @@ fn a_screenshot_carries_what_is_hidden() {
     window.select("walls");
     window.press(Modifiers::NONE, Key::H);
     window.click("Screenshot");
-    let (settings, _) = read_settings(&folder.path().join("octolume-courtyard-1.png")).expect("settings");
-    assert_eq!(settings.visibility, window.app().settings().visibility);
-    assert!(!settings.visibility.shows_all());
+    let settings = read_settings(&folder.path().join("octolume-courtyard-1.png")).expect("settings");
+    assert_eq!(settings.shot.visibility, window.app().settings().shot.visibility);
+    assert!(!settings.shot.visibility.shows_all());
 }
 
 #[test]
@@ -177,25 +177,25 @@ fn ten_thousand_nodes_lay_out_the_rows_on_screen_alone() {
     window.type_into("Find", "twig 9999");
     window.select("twig 9999");
     window.click("Isolate");
-    assert_eq!(window.app().settings().visibility.only, [9_999].into());
+    assert_eq!(window.app().settings().shot.visibility.only, [9_999].into());
 }
 
 #[test]
 fn another_scene_is_shown_whole_and_names_of_the_command_line_hide() {
     let names = NodeNames { hide: vec!["walls".to_owned()], ..NodeNames::default() };
     let mut window = Window::with(wgpu_setup(), "courtyard", small_grid(), names);
-    assert_eq!(window.app().settings().visibility.hidden.len(), 1);
+    assert_eq!(window.app().settings().shot.visibility.hidden.len(), 1);
     let folder = tempfile::tempdir().expect("a folder");
     let nodes = vec![json!({ "name": "sail", "mesh": 0 })];
     let scene = files::write(folder.path(), "boat", &[0], nodes, None);
     window.type_into("Path", &scene.display().to_string());
     window.click("Open");
-    assert_eq!(window.app().settings().visibility, Visibility::default());
+    assert_eq!(window.app().settings().shot.visibility, Visibility::default());
 
     let mut settings = small_grid();
-    settings.visibility.hidden.insert(99_999);
+    settings.shot.visibility.hidden.insert(99_999);
     let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
-    assert!(window.app().settings().visibility.shows_all());
+    assert!(window.app().settings().shot.visibility.shows_all());
     assert!(window.log_holds("courtyard: node 99999 cannot be hidden or shown"));
 }
 

@@ -96,11 +96,11 @@ pub struct TracedScene<'a> {
 impl<'a> TracedScene<'a> {
     /// Objects at no finite place are left out: [`Self::warnings`].
     pub fn new(prepared: &'a Prepared, settings: &Settings, options: Options) -> Result<Self, LightsError> {
-        let hidden = prepared.hidden(&settings.visibility)?;
-        let triangles = PosedTriangles::new(prepared, &settings.motion, &hidden)?;
-        let pose = prepared.pose(&settings.motion)?;
-        let shown = settings.visibility.shown_nodes(&prepared.scene)?;
-        let lighting = &settings.lighting;
+        let hidden = prepared.hidden(&settings.shot.visibility)?;
+        let triangles = PosedTriangles::new(prepared, &settings.shot.motion, &hidden)?;
+        let pose = prepared.pose(&settings.shot.motion)?;
+        let shown = settings.shot.visibility.shown_nodes(&prepared.scene)?;
+        let lighting = &settings.method.lighting;
         let readers = readers(prepared, &triangles, &pose, (lighting.emission, options.reflection));
         let lights = posed_lights(&prepared.scene, &pose, lighting, &shown, prepared.emits(lighting));
         let grid = &prepared.grid;
@@ -109,7 +109,7 @@ impl<'a> TracedScene<'a> {
             punctual: lights.iter().map(|light| Punctual::new(light, grid)).collect(),
             emitters: Emitters::new(triangles.tree(), &readers),
             sky_nits: DVec3::from_array(lighting.sky_nits),
-            occlusion_cells: settings.cone_tracing.occlusion_cells(grid.cells(), grid.span),
+            occlusion_cells: settings.method.cone_tracing.occlusion_cells(grid.cells(), grid.span),
             rays: CameraRays::new(&camera, grid, options.size_px),
             textures: prepared.texture_hashes(),
             triangles,

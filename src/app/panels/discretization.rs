@@ -22,10 +22,10 @@ pub fn ui(ui: &mut Ui, current: &Discretization, span: Option<f64>) -> Vec<Comma
     });
     span_ui(ui, &mut wanted, span);
     let deepest = wanted.depth() - 1;
-    let mut dense = wanted.dense_level();
+    let mut dense = wanted.deepest_dense();
     let tip = "Octree levels 0 to this one are stored densely: faster to reach, 8 times the memory a level.";
     if control(ui, "Dense to", tip, |ui| ui.add(Slider::new(&mut dense, 0..=deepest).prefix("level "))).changed() {
-        wanted.dense_level = dense;
+        wanted.dense_level = Some(dense);
     }
     let modes = [
         (VoxelizationMode::Thin, "Thin", "6-separating: the thinnest layer no axial step passes through."),

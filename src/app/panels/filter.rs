@@ -41,9 +41,9 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
     ];
     for (name, tip, value) in rows {
         let is_compared = matches!(name, "Holes" | "Spill");
-        let awaited = (is_compared && settings.look.accuracy).then(|| ON_ITS_WAY.to_owned());
+        let awaited = (is_compared && settings.method.look.accuracy).then(|| ON_ITS_WAY.to_owned());
         let values = costs.map(|cost| cost.as_ref().and_then(value).or_else(|| awaited.clone()));
-        row_ui(ui, name, tip, values, settings.discretization.filter, row_color(name));
+        row_ui(ui, name, tip, values, settings.method.discretization.filter, row_color(name));
     }
     let exact_cells = report.and_then(|report| report.exact_cells);
     let share = |cost: Option<FilterReport>| Some(percent(cost?.holes?, exact_cells?));
@@ -51,15 +51,15 @@ pub fn ui(ui: &mut Ui, settings: &Settings, report: Option<&AccuracyReport>) -> 
         Some(exact) => format!("Holes as a share of the {} exact cells.", grouped(exact)),
         None => "Holes as a share of the exact cells; known once measured.".to_owned(),
     };
-    let awaited = settings.look.accuracy.then(|| ON_ITS_WAY.to_owned());
+    let awaited = settings.method.look.accuracy.then(|| ON_ITS_WAY.to_owned());
     let missed = costs.map(|cost| share(cost).or_else(|| awaited.clone()));
-    row_ui(ui, "Missed", &tip, missed, settings.discretization.filter, None);
+    row_ui(ui, "Missed", &tip, missed, settings.method.discretization.filter, None);
     commands.extend(measure_ui(ui, settings));
     commands
 }
 
 fn switch_ui(ui: &mut Ui, settings: &Settings) -> Option<Command> {
-    let mut wanted = settings.discretization;
+    let mut wanted = settings.method.discretization;
     ui.horizontal(|ui| {
         ui.add_space(NAME_WIDTH + ui.spacing().item_spacing.x);
         let width = column_width(ui);
@@ -74,7 +74,7 @@ fn switch_ui(ui: &mut Ui, settings: &Settings) -> Option<Command> {
             }
         }
     });
-    (wanted != settings.discretization).then_some(Command::Discretize(wanted))
+    (wanted != settings.method.discretization).then_some(Command::Discretize(wanted))
 }
 
 /// Half of what is left, less the gap between the two columns.
@@ -127,9 +127,9 @@ fn percent(cells: u64, exact: u64) -> String {
 
 fn measure_ui(ui: &mut Ui, settings: &Settings) -> Option<Command> {
     ui.add_space(3.0);
-    let mut look = settings.look;
+    let mut look = settings.method.look;
     let tip = "Builds with both filters and compares each with the exact voxelization of the pose. \
                Costs a second build on the GPU and a voxelization on the CPU for every pose.";
     ui.checkbox(&mut look.accuracy, "Measure both filters").on_hover_text(tip);
-    (look != settings.look).then_some(Command::Look(look))
+    (look != settings.method.look).then_some(Command::Look(look))
 }

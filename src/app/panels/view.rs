@@ -13,6 +13,8 @@ pub struct ViewPanel<'a> {
     pub look: &'a Look,
     /// The octree's, so that the level slider ends at its leaves.
     pub depth: u32,
+    /// The camera is set; otherwise it frames everything.
+    pub is_camera_free: bool,
     /// Those of the file.
     pub cameras: &'a [SceneCamera],
     /// Names of those that have a shadow map, in the shadow map view.
@@ -39,7 +41,7 @@ pub fn ui(ui: &mut Ui, panel: ViewPanel<'_>) -> Vec<Command> {
     if is_exposed {
         exposure_ui(ui, &mut look, panel.exposure);
     }
-    commands.extend(camera_ui(ui, panel.look, panel.cameras));
+    commands.extend(camera_ui(ui, panel.is_camera_free, panel.cameras));
     if look != *panel.look {
         commands.push(Command::Look(look));
     }
@@ -115,13 +117,13 @@ fn shadow_map_ui(ui: &mut Ui, look: &mut Look, lights: &[String]) {
     });
 }
 
-fn camera_ui(ui: &mut Ui, look: &Look, cameras: &[SceneCamera]) -> Option<Command> {
+fn camera_ui(ui: &mut Ui, is_free: bool, cameras: &[SceneCamera]) -> Option<Command> {
     let mut command = None;
-    let shown = if look.camera.is_some() { "Free" } else { "All framed" };
+    let shown = if is_free { "Free" } else { "All framed" };
     control(ui, "Camera", "Where the picture is taken from; drag in the view to move it.", |ui| {
         let combo = egui::ComboBox::from_id_salt("camera").width(110.0).selected_text(shown);
         let response = combo.show_ui(ui, |ui| {
-            if ui.selectable_label(look.camera.is_none(), "Frame all").on_hover_text("Key F").clicked() {
+            if ui.selectable_label(!is_free, "Frame all").on_hover_text("Key F").clicked() {
                 command = Some(Command::FrameAll);
             }
             for (index, camera) in cameras.iter().enumerate() {

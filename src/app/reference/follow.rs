@@ -35,7 +35,7 @@ impl Reference {
             self.start(ctx, shown);
         }
         self.is_of_shown = self.seen.as_ref().is_some_and(|seen| seen.is(&shown.seen));
-        let looks = &shown.seen.settings.look;
+        let looks = &shown.seen.settings.method.look;
         self.is_compared = self.is_of_shown && looks.view == View::Surfaces && PARTS.contains(&looks.surface);
         self.is_behind = self.is_compared && self.traced.is_some();
         if !self.is_behind || !shown.is_finished || !self.is_looked_at() {
@@ -100,7 +100,7 @@ impl Reference {
         }
         let settings = &shown.seen.settings;
         if let Some(pixels) = shown.engine.read_surfaces()? {
-            let (part, curve) = (settings.look.surface, settings.look.tone_curve);
+            let (part, curve) = (settings.method.look.surface, settings.method.look.tone_curve);
             let picture = ConePicture {
                 part,
                 size_px: shown.seen.size_px,
@@ -109,7 +109,7 @@ impl Reference {
                     true => Display { exposure: shown.engine.exposure(), curve },
                     false => Display { exposure: 1.0, curve: ToneCurve::Linear },
                 },
-                shows_sky: part.is_light() && settings.lighting.has_sky(),
+                shows_sky: part.is_light() && settings.method.lighting.has_sky(),
             };
             self.cones = Some((shown.results, Arc::new(picture)));
         }
@@ -123,7 +123,7 @@ impl Reference {
         }
         let (results, parts) = self.parts.get_or_insert_default();
         if *results != shown.results {
-            let (size_px, look) = (shown.seen.size_px, shown.seen.settings.look);
+            let (size_px, look) = (shown.seen.size_px, shown.seen.settings.method.look);
             (*results, *parts) = (shown.results, Arc::new(ConeParts { size_px, look, pixels: Vec::new() }));
         }
         if let Some(part) = parts.missing()

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::prepare::Prepared;
-use crate::settings::{ConeTracing, Lighting, Look, Settings};
+use crate::settings::{ConeTracing, Lighting, MethodSettings, Settings};
 
 #[derive(Clone)]
 pub struct Seen {
@@ -25,9 +25,8 @@ impl Seen {
 /// paths count.
 fn of_paths(settings: &Settings) -> Settings {
     let unset = Lighting::default();
-    let bounces = settings.lighting.bounces.min(1);
-    Settings {
-        look: Look { camera: settings.look.camera, ..Look::default() },
+    let bounces = settings.method.lighting.bounces.min(1);
+    let method = MethodSettings {
         lighting: Lighting {
             shadows: unset.shadows,
             shadow_map_px: unset.shadow_map_px,
@@ -36,49 +35,48 @@ fn of_paths(settings: &Settings) -> Settings {
             bounces,
             cones: unset.cones,
             cone_degrees: unset.cone_degrees,
-            ..settings.lighting.clone()
+            ..settings.method.lighting.clone()
         },
         cone_tracing: ConeTracing {
-            occlusion_distance: settings.cone_tracing.occlusion_distance,
+            occlusion_distance: settings.method.cone_tracing.occlusion_distance,
             ..ConeTracing::default()
         },
-        motion: settings.motion.clone(),
-        visibility: settings.visibility.clone(),
-        ..Settings::default()
-    }
+        ..MethodSettings::default()
+    };
+    Settings { shot: settings.shot.clone(), method }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::{SurfaceView, ToneCurve, View};
+    use crate::settings::{Look, SurfaceView, ToneCurve, View};
 
     #[test]
     fn cones_and_exposure_leave_paths_as_they_are() {
         let mut other = Settings::default();
-        other.look = Look {
+        other.method.look = Look {
             view: View::Surfaces,
             surface: SurfaceView::Ao,
             exposure_stops: Some(3.0),
             tone_curve: ToneCurve::Linear,
-            ..other.look
+            ..other.method.look
         };
-        other.cone_tracing.cones = 9;
-        other.lighting.cones = 9;
-        other.discretization.dense_level = 3;
+        other.method.cone_tracing.cones = 9;
+        other.method.lighting.cones = 9;
+        other.method.discretization.dense_level = Some(3);
         assert_eq!(of_paths(&other), of_paths(&Settings::default()));
-        other.cone_tracing.occlusion_distance = Some(1.0);
+        other.method.cone_tracing.occlusion_distance = Some(1.0);
         assert_ne!(of_paths(&other), of_paths(&Settings::default()));
     }
 
     #[test]
     fn lights_and_pose_are_seen() {
         let mut sky = Settings::default();
-        sky.lighting.sky_nits = [1.0; 3];
+        sky.method.lighting.sky_nits = [1.0; 3];
         let mut later = Settings::default();
-        later.motion.time_secs = 1.0;
+        later.shot.motion.time_secs = 1.0;
         let mut bounced = Settings::default();
-        bounced.lighting.bounces = 2;
+        bounced.method.lighting.bounces = 2;
         for other in [sky, later, bounced] {
             assert_ne!(of_paths(&other), of_paths(&Settings::default()));
         }

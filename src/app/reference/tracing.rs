@@ -122,7 +122,7 @@ fn trace(run: Run, progress: &Progress, publish: &(impl Fn(Traced) + Sync)) -> R
         let stored = || kept.as_ref().and_then(|(disk, key)| disk.load_film(key, seen.size_px, samples));
         let mut film = film.or_else(stored).unwrap_or_else(|| scene.new_film());
         let is_whole = step(&scene, &mut film, samples, progress, |film| {
-            publish(Traced::new(film, &seen.settings.lighting));
+            publish(Traced::new(film, &seen.settings.method.lighting));
         });
         let warning = kept.filter(|_| is_whole).and_then(|(disk, key)| {
             let error = disk.store_film(&key, &film).err()?;

@@ -37,7 +37,7 @@ impl Made for ComposedLight {
         let shown = self.shown.ensure(making.gpu, "shown light", image_bytes(making.request.shot.size_px))?;
         let nothing = self.nothing.ensure(making.gpu, "no light", RADIANCE_BYTES)?;
         making.begin(frame, Pass::ComposeSurfaces);
-        parts.compose(making, frame, making.method.settings().look.surface, (&shown, &nothing))?;
+        parts.compose(making, frame, making.method.settings().method.look.surface, (&shown, &nothing))?;
         Ok(None)
     }
 }
@@ -54,7 +54,7 @@ impl Parts {
         let view = making.view();
         let params = ComposeParams {
             sky: making.method.sky_nits(),
-            glossy_roughness: making.method.settings().cone_tracing.glossy_roughness as f32,
+            glossy_roughness: making.method.settings().method.cone_tracing.glossy_roughness as f32,
             span: making.request.grid().span as f32,
             pad: 0,
             pad_end: [0; 2],

@@ -51,8 +51,8 @@ impl GlossyTiles {
 
 fn sampler(making: &Making<'_>) -> Sampler {
     let settings = making.method.settings();
-    let cones = &settings.cone_tracing;
-    Sampler { sampling: cones.sampling, lookup: cones.lookup, opacity: settings.lighting.opacity }
+    let cones = &settings.method.cone_tracing;
+    Sampler { sampling: cones.sampling, lookup: cones.lookup, opacity: settings.method.lighting.opacity }
 }
 
 impl Made for DiffuseLight {
@@ -63,7 +63,7 @@ impl Made for DiffuseLight {
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
         let (gpu, grid) = (making.gpu, making.request.grid());
-        let (settings, picture_px) = (&making.method.settings().cone_tracing, making.request.shot.size_px);
+        let (settings, picture_px) = (&making.method.settings().method.cone_tracing, making.request.shot.size_px);
         let size_px = settings.diffuse_size_px(picture_px);
         let whole = filter::is_done(picture_px, size_px, settings.pattern_px);
         let slot = if whole { &mut self.diffuse } else { &mut self.traced };
@@ -96,7 +96,7 @@ impl Made for GlossyTiles {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let settings = &making.method.settings().cone_tracing;
+        let settings = &making.method.settings().method.cone_tracing;
         let size_px = settings.specular_size_px(making.request.shot.size_px);
         let params = GlossyParams::new(size_px, settings.glossy_roughness);
         let view = making.view();
@@ -124,7 +124,7 @@ impl Made for SpecularLight {
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
         let gpu = making.gpu;
-        let (settings, picture_px) = (&making.method.settings().cone_tracing, making.request.shot.size_px);
+        let (settings, picture_px) = (&making.method.settings().method.cone_tracing, making.request.shot.size_px);
         let size_px = settings.specular_size_px(picture_px);
         let is_small = size_px != picture_px;
         let slot = if is_small { &mut self.traced } else { &mut self.specular };

@@ -78,7 +78,7 @@ impl Lit<'_> {
     }
 
     fn gather(&self, frame: &mut Recorder, gathered: Gathered, irradiance: &GpuBuffer) {
-        let lighting = &self.making.method.settings().lighting;
+        let lighting = &self.making.method.settings().method.lighting;
         let cones = Cones { count: lighting.cones, aperture_degrees: lighting.cone_degrees, ..Cones::default() };
         let params = ConeParams::new(&cones, self.making.method.sky_nits());
         let from = (&self.light, self.opacity);
@@ -88,7 +88,7 @@ impl Lit<'_> {
 
 impl Light {
     fn leaves(&mut self, making: &Making<'_>, parts: &Parts, leaves: u64) -> Result<FromLeaves, EngineError> {
-        let (gpu, lighting, bytes) = (making.gpu, &making.method.settings().lighting, IRRADIANCE_BYTES * leaves);
+        let (gpu, lighting, bytes) = (making.gpu, &making.method.settings().method.lighting, IRRADIANCE_BYTES * leaves);
         let bounces = making.runs(Pass::Bounces);
         let gathered = bounces.then(|| self.gathered.ensure(gpu, "gathered irradiance", bytes)).transpose()?;
         let emission = parts.leaf_emission(making)?;
@@ -100,7 +100,7 @@ impl Light {
     /// What every light adds to every leaf.
     fn record_direct(&mut self, frame: &mut Recorder, lit: &Lit<'_>, parts: &Parts) -> Result<(), EngineError> {
         let making = lit.making;
-        let lighting = &making.method.settings().lighting;
+        let lighting = &making.method.settings().method.lighting;
         making.begin(frame, Pass::Illuminate);
         let bytes = IRRADIANCE_BYTES * u64::from(lit.octree.sizes.params.leaf_count);
         frame.clear_part(&lit.from.direct, bytes);
@@ -126,7 +126,7 @@ impl Made for Light {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let (gpu, lighting) = (making.gpu, &making.method.settings().lighting);
+        let (gpu, lighting) = (making.gpu, &making.method.settings().method.lighting);
         let octree = LitOctree::new(parts.octree(making)?)?;
         let params = octree.sizes.params;
         let light = self.light.ensure(gpu, "light", light_bytes(&params, lighting.opacity.is_directional()))?;
@@ -162,7 +162,7 @@ impl Made for Irradiance {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let (gpu, opacity) = (making.gpu, making.method.settings().lighting.opacity);
+        let (gpu, opacity) = (making.gpu, making.method.settings().method.lighting.opacity);
         let octree = LitOctree::new(parts.octree(making)?)?;
         let shown =
             self.shown.ensure(gpu, "shown irradiance", light_bytes(&octree.sizes.params, opacity.is_directional()))?;

@@ -58,7 +58,7 @@ impl Making<'_> {
 
     /// Rays of the picture's pixels.
     pub fn view(&self) -> ViewParams {
-        self.view_of(&self.method.settings().look)
+        self.view_of(&self.method.settings().method.look)
     }
 
     pub fn view_of(&self, look: &Look) -> ViewParams {

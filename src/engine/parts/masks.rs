@@ -75,10 +75,10 @@ impl Made for Masks {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let (gpu, discretization) = (making.gpu, &making.method.settings().discretization);
+        let (gpu, discretization) = (making.gpu, &making.method.settings().method.discretization);
         let voxels = parts.moving_voxels(making)?;
         let (depth, filter) = (discretization.depth(), discretization.filter);
-        let octree = OctreeParams::new(depth, discretization.dense_level());
+        let octree = OctreeParams::new(depth, discretization.deepest_dense());
         (self.filter, self.voxels, self.counts) = (filter, voxels.threads(), None);
         self.room = parts.likely_sizes(making.own_key()?.method(), making.estimated_share);
         let sizes = OctreeSizes::write(gpu, &mut self.params, &octree)?;

@@ -41,7 +41,7 @@ impl Made for Drawn {
             None => Picture::new(making.gpu, size_px)?,
         };
         let drawn = &picture;
-        match making.method.settings().look.view {
+        match making.method.settings().method.look.view {
             View::Voxels if shows_light(&making.method.asked) => parts.march_light(making, frame, drawn),
             View::Voxels => parts.march(making, frame, drawn),
             View::Ghost => parts.ghost(making, frame, drawn),
@@ -63,7 +63,7 @@ impl Drawn {
             None => depth_buffer(gpu, shot.size_px)?,
         };
         let posed = parts.posed_mesh(making, &mut self.matrices, &camera_from_world(&shot.camera, grid))?;
-        let seen = MeshView { camera: &shot.camera, grid, look: &making.method.settings().look };
+        let seen = MeshView { camera: &shot.camera, grid, look: &making.method.settings().method.look };
         making.begin(frame, Pass::DrawMesh);
         mesh::record(gpu, frame, &posed, seen, MeshTarget { picture, depth: &depth });
         self.depth = Some(depth);
@@ -81,7 +81,7 @@ impl Parts {
         let numbers = making.keys.get(Part::ObjectNumbers).and_then(|key| self.object_numbers.get(key));
         let objects = numbers.and_then(|numbers| numbers.leaf_objects.get());
         let octree = MarchedOctree::new(self.octree(making)?, objects)?;
-        let look = &making.method.settings().look;
+        let look = &making.method.settings().method.look;
         let palette = Palette::new(shown_color(look, making.request.grid().depth));
         making.begin(frame, Pass::MarchVoxels);
         march::record(making.gpu, frame, &octree, (&making.view(), &palette), picture);
@@ -91,7 +91,7 @@ impl Parts {
     fn march_light(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
         let octree = LitOctree::new(self.octree(making)?)?;
         let light = self.light_shown(making)?;
-        let exposure = exposure(&making.method.settings().look);
+        let exposure = exposure(&making.method.settings().method.look);
         making.begin(frame, Pass::MarchLight);
         march_light::record(making.gpu, frame, &octree, (&light, exposure), &making.view(), picture);
         Ok(())
@@ -106,7 +106,7 @@ impl Parts {
         let bits = self.exact_bits.made(making.key(Part::ExactBits)?, "exact bits")?;
         let masks = self.exact_masks.made(making.key(Part::ExactMasks)?, "exact masks")?;
         let exact = set(&bits.bits, &masks.occupied)?;
-        let leaves = Look { level: None, ..making.method.settings().look };
+        let leaves = Look { level: None, ..making.method.settings().method.look };
         let view = making.view_of(&leaves);
         making.begin(frame, Pass::MarchGhost);
         ghost::record(making.gpu, frame, octree.sizes, (&moved, &exact), (&view, &GHOST_COLORS), picture);
@@ -114,7 +114,7 @@ impl Parts {
     }
 
     fn slice(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
-        let look = &making.method.settings().look;
+        let look = &making.method.settings().method.look;
         let light = self.light_shown(making)?;
         let pointers = self.pointers(making.keys, look.slice.lookup);
         let sampled = SampledOctree::new(self.octree(making)?, &light, look.slice.lookup, pointers.as_ref())?;
@@ -127,7 +127,7 @@ impl Parts {
     fn shadow_map(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
         let missing = || GpuError::Missing { label: "shadow map".to_owned() };
         let maps = &self.shadow_maps.made(making.key(Part::ShadowMaps)?, "shadow maps")?.maps;
-        let wanted = making.method.settings().look.shadow_map;
+        let wanted = making.method.settings().method.look.shadow_map;
         let map = maps.get(wanted).or(maps.last()).ok_or_else(missing)?;
         let range = map.params.range_cells(making.request.grid().cells());
         let palette = Palette::new(ColorBy::Occupancy);
@@ -137,11 +137,11 @@ impl Parts {
     }
 
     fn surfaces(&self, making: &Making<'_>, frame: &mut Recorder, picture: &Picture) -> Recorded {
-        let look = &making.method.settings().look;
+        let look = &making.method.settings().method.look;
         let composed = self.composed.made(making.key(Part::ComposedLight)?, "shown light")?;
         let shown = composed.shown.made("shown light")?;
         let [least, most] = making.request.depth_range();
-        let has_sky = making.method.settings().lighting.has_sky();
+        let has_sky = making.method.settings().method.lighting.has_sky();
         let params = ShowSurfacesParams { least: least as f32, most: most as f32, sky: u32::from(has_sky), pad: 0 };
         let measured = making.keys.get(Part::Exposure).and_then(|key| self.exposure.get(key)?.exposure.get());
         let exposure = match (look.exposure_stops, measured) {

@@ -21,7 +21,7 @@ impl Made for ShadowMaps {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let (gpu, layouts) = (making.gpu, &making.method.shadow_maps);
+        let (gpu, layouts) = (making.gpu, &making.method.shadow_maps.maps);
         let kept = self.maps.iter().map(|map| (map.params.count, map.params.size_px));
         if !kept.eq(layouts.iter().map(|params| (params.count, params.size_px))) {
             // The old ones go first: both at once might not fit.

@@ -50,7 +50,7 @@ impl Made for Surfaces {
             None => (SurfaceImage::new(gpu, shot.size_px)?, depth_buffer(gpu, shot.size_px)?),
         };
         let posed = parts.posed_mesh(making, &mut self.matrices, &camera_from_world(&shot.camera, grid))?;
-        let emission = making.method.settings().lighting.emission;
+        let emission = making.method.settings().method.lighting.emission;
         making.begin(frame, Pass::DrawSurfaces);
         draw::record(gpu, frame, &posed, Viewpoint { camera: &shot.camera, grid, emission }, (&image, &depth));
         self.image = Some((image, depth));
@@ -65,7 +65,7 @@ impl Made for DirectLight {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let (gpu, lighting) = (making.gpu, &making.method.settings().lighting);
+        let (gpu, lighting) = (making.gpu, &making.method.settings().method.lighting);
         let bytes = image_bytes(making.request.shot.size_px);
         let sum = self.direct.ensure(gpu, "direct light of surfaces", bytes)?;
         let view = making.view();

@@ -61,7 +61,7 @@ impl Engine {
     pub fn node_at(&self, pixel: [u32; 2]) -> Result<Option<NodeAddress>, EngineError> {
         let Some(on_screen) = self.on_screen.as_ref().filter(|_| self.is_at_rest()) else { return Ok(None) };
         let (request, picture) = (&on_screen.request, &on_screen.picture);
-        let (shot, look) = (&request.shot, &request.settings().look);
+        let (shot, look) = (&request.shot, &request.settings().method.look);
         if look.view == View::ShadowMap {
             return Ok(None);
         }

@@ -98,6 +98,6 @@ fn light_bytes_of(request: &Request, keys: &Keys, params: &OctreeParams) -> u64 
     // Direct irradiance, that of bounces, and emission.
     let emits = keys.get(Part::Emission).is_some();
     let a_leaf = 1 + u64::from(calls_for(Pass::Bounces, asked)) + u64::from(emits);
-    light_bytes(params, request.settings().lighting.opacity.is_directional())
+    light_bytes(params, request.settings().method.lighting.opacity.is_directional())
         + IRRADIANCE_BYTES * u64::from(params.leaf_count) * a_leaf
 }

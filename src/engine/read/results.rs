@@ -33,7 +33,7 @@ impl Engine {
     }
 
     fn exposure_of(&self, request: &Request, keys: &Keys) -> f64 {
-        let look = &request.settings().look;
+        let look = &request.settings().method.look;
         let measured = || Some(self.parts.exposure.finished(keys.get(Part::Exposure)?)?.measured.factor);
         match look.exposure_stops {
             Some(stops) => stops.exp2(),
@@ -58,11 +58,11 @@ impl Engine {
     }
 
     fn range_of(&self, request: &Request, keys: &Keys) -> Option<[f64; 2]> {
-        let look = &request.settings().look;
+        let look = &request.settings().method.look;
         match look.view {
             View::Slice => Some(slice::range_of_mean(&look.slice, self.mean_light(request, keys))),
             View::ShadowMap => {
-                let maps = &request.shown().shadow_maps;
+                let maps = &request.shown().shadow_maps.maps;
                 let map = maps.get(look.shadow_map).or(maps.last())?;
                 Some(map.range_cells(request.grid().cells()).map(|cells| cells * request.grid().span))
             }

@@ -13,7 +13,7 @@ impl Engine {
     /// The finished frame, where it shows surfaces.
     fn shown_surfaces(&self) -> Option<&FinishedFrame> {
         let shows = |shown: &&FinishedFrame| {
-            shown.request.settings().look.view == View::Surfaces && !shown.request.shows_nothing()
+            shown.request.settings().method.look.view == View::Surfaces && !shown.request.shows_nothing()
         };
         self.shown.as_ref().filter(shows)
     }
@@ -46,7 +46,7 @@ impl Engine {
     fn has_made(&self, shown: &FinishedFrame, surface: SurfaceView) -> bool {
         let has = |part: Part| shown.keys.first().is_some_and(|keys| keys.get(part).is_some());
         match surface {
-            SurfaceView::Final => shown.request.settings().look.surface == SurfaceView::Final,
+            SurfaceView::Final => shown.request.settings().method.look.surface == SurfaceView::Final,
             SurfaceView::Direct => has(Part::DirectLight),
             SurfaceView::Ao => {
                 has(Part::DiffuseLight) && ConesAsked::new(&shown.request.shown().asked).occlusion.is_ok()

@@ -11,10 +11,12 @@ use crate::settings::{MotionSettings, Settings};
 
 /// The settings of one of the poses.
 fn posed(lab: &Lab, pose: &MotionSettings) -> Settings {
-    Settings { motion: pose.clone(), ..lab.settings.clone() }
+    let mut settings = lab.settings.clone();
+    settings.shot.motion = pose.clone();
+    settings
 }
 
 /// What pictures of a pose are called, as far as they have that in common.
 fn picture_stem(lab: &Lab, settings: &Settings, number: usize) -> String {
-    format!("{}-{}-{number}", lab.prepared.scene.name, settings.discretization.grid)
+    format!("{}-{}-{number}", lab.prepared.scene.name, settings.method.discretization.grid)
 }

@@ -44,10 +44,10 @@ impl Race {
     ) -> Result<Self, ExperimentError> {
         let options = Options { seed: options.seed ^ OTHER_SEED, ..options };
         let scene = TracedScene::new(prepared, settings, options).map_err(TraceError::from)?;
-        let part = settings.look.surface;
+        let part = settings.method.look.surface;
         let light = |film: &Film| shown(film, part, (prepared, settings));
         let truth_light = light(truth)?;
-        let shown = Display::new(&settings.look, part, &truth_light);
+        let shown = Display::new(&settings.method.look, part, &truth_light);
         let mut film = scene.new_film();
         let mut race = Self { equal_time: None, as_right: None };
         // A truth that is hardly better than what is judged by it would say nothing.
@@ -86,7 +86,7 @@ pub fn shown(
     (prepared, settings): (&Prepared, &Settings),
 ) -> Result<Vec<LightPixel>, ExperimentError> {
     let no_paths = || ExperimentError::NoPaths { scene: prepared.scene.name.clone(), part: name_of(&part) };
-    film.shown(part, &settings.lighting).ok_or_else(no_paths)
+    film.shown(part, &settings.method.lighting).ok_or_else(no_paths)
 }
 
 /// FLIP, or what stands in for it.

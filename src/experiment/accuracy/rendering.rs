@@ -97,7 +97,8 @@ pub fn rendering(
     poses: Vec<MotionSettings>,
     options: RenderingOptions,
 ) -> Experiment {
-    (subject.settings.look.view, subject.settings.look.surface) = (View::Surfaces, SurfaceView::Final);
+    (subject.settings.method.look.view, subject.settings.method.look.surface) = (View::Surfaces, SurfaceView::Final);
+    subject.settings.shot.size_px = Some(options.size_px);
     Experiment::begin(gpu, ("rendering", subject), Vec::<RenderingRow>::new(), async move |mut lab, rows| {
         for (number, pose) in poses.iter().enumerate() {
             let case = Case { share: Share::WHOLE.part(number, poses.len()), number, options: &options };
@@ -125,7 +126,7 @@ async fn compare(
     let truth = trace(lab, &settings, (tracing, case.options)).await?;
     for ((surface, terms), share) in FRAMES.into_iter().zip([cones, occlusion]) {
         let [measuring, judging] = share.split([3.0, 1.0]);
-        settings.look.surface = surface;
+        settings.method.look.surface = surface;
         let read = measure(lab, &settings, (case.options.size_px, terms, measuring)).await?;
         let stem = case.options.draws.then(|| picture_stem(lab, &settings, case.number));
         let (prepared, of_frame, truth) = (Arc::clone(&lab.prepared), settings.clone(), Arc::clone(&truth));
@@ -138,7 +139,7 @@ async fn compare(
             rows.borrow_mut().push(row);
         }
     }
-    settings.look.surface = SurfaceView::Final;
+    settings.method.look.surface = SurfaceView::Final;
     race(lab, settings, (racing, case.options, truth), rows).await
 }
 
@@ -223,15 +224,15 @@ impl ReadTerm {
         stem: Option<&str>,
     ) -> Result<(RenderingRow, Vec<NamedPicture>), ExperimentError> {
         let truth = shown(film, self.part, (prepared, settings))?;
-        let shown = Display::new(&settings.look, self.part, &truth);
+        let shown = Display::new(&settings.method.look, self.part, &truth);
         let error = picture_error::compare(&self.cones, &truth, film.size_px(), &shown)?;
-        let bounces = settings.lighting.bounces;
+        let bounces = settings.method.lighting.bounces;
         let stated = Term::of(self.part, bounces).map(|term| film.standard_error(term)).unwrap_or_default();
         let row = RenderingRow {
             scene: prepared.scene.name.clone(),
-            time_secs: settings.motion.time_secs,
-            turn_degrees: settings.motion.turn_degrees,
-            grid: settings.discretization.grid,
+            time_secs: settings.shot.motion.time_secs,
+            turn_degrees: settings.shot.motion.turn_degrees,
+            grid: settings.method.discretization.grid,
             span: prepared.grid.span,
             size_px: film.size_px(),
             bounces,
@@ -255,7 +256,7 @@ impl ReadTerm {
         stem: &str,
     ) -> Vec<NamedPicture> {
         let mut settings = settings.clone();
-        settings.look.surface = self.part;
+        settings.method.look.surface = self.part;
         let drawn = |light: &[LightPixel]| DynamicImage::from(shown.picture(light, size_px)).into_rgba8();
         let difference = difference_map(&self.cones, truth, size_px, difference_scale(truth));
         let pictures = [("cones", drawn(&self.cones)), ("paths", drawn(truth)), ("difference", difference)];

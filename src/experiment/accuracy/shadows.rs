@@ -75,8 +75,10 @@ struct Compared {
 /// In every pose a row for every light that shines and every method, and for all lights together where there are
 /// several.
 pub fn shadows(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>) -> Experiment {
-    subject.settings.look.view = View::Voxels;
-    subject.settings.look.color = ColorBy::Radiance;
+    subject.settings.method.look.view = View::Voxels;
+    subject.settings.method.look.color = ColorBy::Radiance;
+    // Nothing is drawn.
+    subject.settings.shot.size_px = None;
     Experiment::begin(gpu, ("shadows", subject), Vec::<ShadowRow>::new(), async move |mut lab, rows| {
         for (number, pose) in poses.iter().enumerate() {
             let settings = posed(&lab, pose);
@@ -117,8 +119,8 @@ async fn lights(lab: &mut Lab, settings: &Settings, share: Share) -> Result<Vec<
     let known = prepared.known_lights(settings)?;
     let alone = |light: &KnownLight| {
         let mut settings = settings.clone();
-        settings.lighting = alone(&settings.lighting, &known, light.source);
-        settings.lighting.shadows = Shadows::Off;
+        settings.method.lighting = alone(&settings.method.lighting, &known, light.source);
+        settings.method.lighting.shadows = Shadows::Off;
         (light.name.clone(), settings)
     };
     let shining = known.iter().filter(|light| light.shines == Shines::Yes).map(alone).collect::<Vec<_>>();
@@ -149,18 +151,18 @@ fn cast(
     let Some((_, settings)) = shining.first() else { return Ok((Vec::new(), Vec::new())) };
     progress.add_total(1 + shining.len() as u64);
     let leaves = LeafPlaces::new(voxels, &prepared.grid);
-    let hidden = prepared.hidden(&settings.visibility)?;
-    let triangles = PosedTriangles::new(prepared, &settings.motion, &hidden)?;
+    let hidden = prepared.hidden(&settings.shot.visibility)?;
+    let triangles = PosedTriangles::new(prepared, &settings.shot.motion, &hidden)?;
     let points = spread(&triangles, POINTS);
-    let pose = prepared.pose(&settings.motion)?;
-    let shown = settings.visibility.shown_nodes(&prepared.scene)?;
+    let pose = prepared.pose(&settings.shot.motion)?;
+    let shown = settings.shot.visibility.shown_nodes(&prepared.scene)?;
     let mut lights = Vec::new();
     for (name, settings) in shining {
         // Where nobody waits any more, what is missing is missed by nobody.
         if progress.advance(1).is_err() {
             break;
         }
-        let posed = posed_lights(&prepared.scene, &pose, &settings.lighting, &shown, false);
+        let posed = posed_lights(&prepared.scene, &pose, &settings.method.lighting, &shown, false);
         let light = posed.first().ok_or_else(|| ExperimentError::NoLight(prepared.scene.name.clone()))?;
         let truth = TrueShadows::new(&triangles, &points, light, &prepared.grid, &leaves);
         lights.push(Compared { name, settings, truth });
@@ -174,18 +176,18 @@ async fn compare_method(
     (method, share): (Method, Share),
 ) -> Result<ShadowRow, ExperimentError> {
     let mut settings = light.settings.clone();
-    settings.lighting.shadows = method.shadows;
-    settings.lighting.shadow_map_px = method.map_px.unwrap_or(settings.lighting.shadow_map_px);
+    settings.method.lighting.shadows = method.shadows;
+    settings.method.lighting.shadow_map_px = method.map_px.unwrap_or(settings.method.lighting.shadow_map_px);
     let kernel_ms = measure(lab, &settings, (&format!("{}: shadows {}", light.name, method.name()), share)).await?;
     let error = light.truth.compare(&lab.engine.read_irradiance()?, open);
     let prepared = &lab.prepared;
-    let clip = prepared.clip_index(&settings.motion)?.map(|clip| prepared.scene.clips[clip].name.clone());
+    let clip = prepared.clip_index(&settings.shot.motion)?.map(|clip| prepared.scene.clips[clip].name.clone());
     Ok(ShadowRow {
         scene: prepared.scene.name.clone(),
         clip,
-        time_secs: settings.motion.time_secs,
-        turn_degrees: settings.motion.turn_degrees,
-        grid: settings.discretization.grid,
+        time_secs: settings.shot.motion.time_secs,
+        turn_degrees: settings.shot.motion.turn_degrees,
+        grid: settings.method.discretization.grid,
         span: prepared.grid.span,
         light: light.name.clone(),
         method,
@@ -197,7 +199,7 @@ async fn compare_method(
 /// Median of shadow map and irradiance, after a run that is not measured.
 async fn measure(lab: &mut Lab, settings: &Settings, (what, share): (&str, Share)) -> Result<f64, ExperimentError> {
     let mut times_ms = Vec::new();
-    let is_mapped = settings.lighting.shadows == Shadows::Map;
+    let is_mapped = settings.method.lighting.shadows == Shadows::Map;
     let counts =
         |timing: &&PassTiming| timing.pass == Pass::Illuminate || is_mapped && timing.pass == Pass::DrawShadows;
     let frames =

@@ -39,8 +39,9 @@ pub struct VoxelRow {
 
 /// Both filters in every pose; milliseconds are medians. With `draws`, a ghost of each as well.
 pub fn voxels(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>, draws: bool) -> Experiment {
-    subject.settings.look.view = View::Voxels;
-    subject.settings.look.accuracy = true;
+    subject.settings.method.look.view = View::Voxels;
+    subject.settings.method.look.accuracy = true;
+    subject.settings.shot.size_px = draws.then_some(SIZE_PX);
     Experiment::begin(gpu, ("voxels", subject), Vec::<VoxelRow>::new(), async move |mut lab, rows| {
         for (number, pose) in poses.iter().enumerate() {
             let share = Share::WHOLE.part(number, poses.len());
@@ -82,13 +83,13 @@ async fn compare_filters(lab: &mut Lab, settings: &Settings, share: Share) -> Re
         let kernel_ms = Spread::of(times_ms)?.median_ms;
         filter.map(|filter| FilterReport { kernel_ms, ..filter })
     };
-    let clip = lab.prepared.clip_index(&settings.motion)?;
+    let clip = lab.prepared.clip_index(&settings.shot.motion)?;
     Ok(VoxelRow {
         scene: scene.name.clone(),
         clip: clip.map(|clip| scene.clips[clip].name.clone()),
-        time_secs: settings.motion.time_secs,
-        turn_degrees: settings.motion.turn_degrees,
-        grid: settings.discretization.grid,
+        time_secs: settings.shot.motion.time_secs,
+        turn_degrees: settings.shot.motion.turn_degrees,
+        grid: settings.method.discretization.grid,
         span: lab.prepared.grid.span,
         exact: report.exact_cells.ok_or_else(nothing)?,
         nearest: with_median(report.nearest, &nearest_ms).ok_or_else(nothing)?,
@@ -98,8 +99,8 @@ async fn compare_filters(lab: &mut Lab, settings: &Settings, share: Share) -> Re
 
 /// Voxelizes the posed mesh exactly.
 async fn take_exact(lab: &mut Lab, settings: &Settings, share: Share) -> Result<(), ExperimentError> {
-    let (prepared, motion) = (Arc::clone(&lab.prepared), settings.motion.clone());
-    let hidden = prepared.hidden(&settings.visibility)?;
+    let (prepared, motion) = (Arc::clone(&lab.prepared), settings.shot.motion.clone());
+    let hidden = prepared.hidden(&settings.shot.visibility)?;
     let exact =
         lab.work((share, "voxelizing the posed mesh"), move |progress| prepared.exact(&motion, &hidden, progress));
     let exact = exact.await??;
@@ -111,11 +112,11 @@ async fn take_exact(lab: &mut Lab, settings: &Settings, share: Share) -> Result<
 /// `STEM-nearest` and `STEM-split`.
 async fn draw_ghosts(lab: &mut Lab, settings: &Settings, number: usize) -> Result<(), ExperimentError> {
     let mut settings = settings.clone();
-    settings.look.view = View::Ghost;
-    settings.look.accuracy = false;
+    settings.method.look.view = View::Ghost;
+    settings.method.look.accuracy = false;
     let stem = picture_stem(lab, &settings, number);
     for filter in [Filter::Nearest, Filter::Split] {
-        settings.discretization.filter = filter;
+        settings.method.discretization.filter = filter;
         lab.draw(&settings, SIZE_PX).await?;
         let picture = lab.engine.read_image()?;
         lab.show(NamedPicture { name: format!("{stem}-{}", name_of(&filter)), picture, settings: settings.clone() });

@@ -63,33 +63,38 @@ const VARIANTS: [Variant; 9] = [
         name: "marched shadows",
         kernels: &["light/illuminate"],
         runs: None,
-        set: |s| s.lighting.shadows = Shadows::March,
+        set: |s| s.method.lighting.shadows = Shadows::March,
     },
     Variant {
         name: "no shadows",
         kernels: &["light/illuminate"],
         runs: None,
-        set: |s| s.lighting.shadows = Shadows::Off,
+        set: |s| s.method.lighting.shadows = Shadows::Off,
     },
     Variant { name: "isotropic", kernels: &["light/inject", "light/average_light"], runs: None, set: |_| {} },
     Variant {
         name: "directional",
         kernels: &["light/average_light"],
         runs: None,
-        set: |s| s.lighting.opacity = Opacity::Directional,
+        set: |s| s.method.lighting.opacity = Opacity::Directional,
     },
-    Variant { name: "a bounce", kernels: &["light/gather"], runs: Some(CONE_RUNS), set: |s| s.lighting.bounces = 1 },
+    Variant {
+        name: "a bounce",
+        kernels: &["light/gather"],
+        runs: Some(CONE_RUNS),
+        set: |s| s.method.lighting.bounces = 1,
+    },
     Variant {
         name: "the sky",
         kernels: &["light/gather"],
         runs: Some(CONE_RUNS),
-        set: |s| s.lighting.sky_nits = [1.0; 3],
+        set: |s| s.method.lighting.sky_nits = [1.0; 3],
     },
 ];
 
 fn follow(settings: &mut Settings, lookup: Lookup) {
-    settings.look.view = View::Slice;
-    settings.look.slice.lookup = lookup;
+    settings.method.look.view = View::Slice;
+    settings.method.look.slice.lookup = lookup;
 }
 
 pub async fn measure(
@@ -99,7 +104,7 @@ pub async fn measure(
 ) -> Result<(), ExperimentError> {
     let light = || RefMut::map(report.borrow_mut(), |report| report.light.get_or_insert_default());
     let mut lit = lab.settings.clone();
-    lit.look.color = ColorBy::Radiance;
+    lit.method.look.color = ColorBy::Radiance;
     let [lighting, relighting, sampling] = share.split([20.0, 1.0, 10.0]);
     for (index, variant) in VARIANTS.iter().enumerate() {
         let mut settings = lit.clone();

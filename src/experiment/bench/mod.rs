@@ -66,7 +66,8 @@ pub struct KernelReport {
 
 /// Kernels over the voxels of a scene, all on one engine. It is called what its first part is.
 pub fn bench(gpu: &Arc<Gpu>, mut subject: Subject, options: BenchOptions) -> Experiment {
-    subject.settings.look.view = View::Voxels;
+    subject.settings.method.look.view = View::Voxels;
+    subject.settings.shot.size_px = Some(SIZE_PX);
     let prepared = &subject.prepared;
     let report = KernelReport {
         scene: prepared.scene.name.clone(),

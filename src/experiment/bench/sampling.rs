@@ -43,7 +43,7 @@ pub async fn measure(
     let cells = Arc::new(lab.engine.read_voxels()?.cells);
     for (half, near_leaves) in [true, false].into_iter().enumerate() {
         let share = share.part(half, 2);
-        let (grid, depth) = (settings.discretization.grid, settings.discretization.depth());
+        let (grid, depth) = (settings.method.discretization.grid, settings.method.discretization.depth());
         let of_places = Arc::clone(&cells);
         let places = lab.work((share, "choosing samples"), move |_| places(&of_places, grid, near_leaves)).await?;
         let places = Arc::new(places);
@@ -52,7 +52,7 @@ pub async fn measure(
             let of_points = Arc::clone(&places);
             let points = lab.work((share, "choosing samples"), move |_| points(&of_points, sampling, depth)).await?;
             for (way, lookup) in LOOKUPS.into_iter().enumerate() {
-                let sampler = Sampler { sampling, lookup, opacity: settings.lighting.opacity };
+                let sampler = Sampler { sampling, lookup, opacity: settings.method.lighting.opacity };
                 let share = share.part(way, LOOKUPS.len());
                 let Some(samples) = measure_way(lab, settings, (&sampler, &points, share)).await else { continue };
                 // Without pointers, which may not have fitted, there is nothing to measure.
@@ -74,8 +74,8 @@ async fn measure_way(
 ) -> Option<Samples> {
     // A slice that follows the pointers has them linked.
     let mut following = settings.clone();
-    following.look.view = View::Slice;
-    following.look.slice.lookup = sampler.lookup;
+    following.method.look.view = View::Slice;
+    following.method.look.slice.lookup = sampler.lookup;
     let [linking, sampling] = share.split([1.0, 3.0]);
     lab.run(&following, NO_PICTURE, linking).await.ok()?;
     let mut samples = Samples::default();

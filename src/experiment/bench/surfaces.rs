@@ -40,32 +40,32 @@ type Change = fn(&mut Settings);
 
 const VARIANTS: [(&str, Change); 18] = [
     ("as set", |_| {}),
-    ("1 cone a pixel", |s| s.cone_tracing.cones = 1),
-    ("2 cones a pixel", |s| s.cone_tracing.cones = 2),
-    ("8 cones a pixel", |s| s.cone_tracing.cones = 8),
-    ("16 cones a pixel", |s| s.cone_tracing.cones = 16),
-    ("aperture 10", |s| s.cone_tracing.cone_degrees = 10.0),
-    ("aperture 20", |s| s.cone_tracing.cone_degrees = 20.0),
-    ("aperture 60", |s| s.cone_tracing.cone_degrees = 60.0),
-    ("whole resolution", |s| s.cone_tracing.half_resolution = false),
+    ("1 cone a pixel", |s| s.method.cone_tracing.cones = 1),
+    ("2 cones a pixel", |s| s.method.cone_tracing.cones = 2),
+    ("8 cones a pixel", |s| s.method.cone_tracing.cones = 8),
+    ("16 cones a pixel", |s| s.method.cone_tracing.cones = 16),
+    ("aperture 10", |s| s.method.cone_tracing.cone_degrees = 10.0),
+    ("aperture 20", |s| s.method.cone_tracing.cone_degrees = 20.0),
+    ("aperture 60", |s| s.method.cone_tracing.cone_degrees = 60.0),
+    ("whole resolution", |s| s.method.cone_tracing.half_resolution = false),
     ("whole, no pattern", |s| {
-        s.cone_tracing.half_resolution = false;
-        s.cone_tracing.pattern_px = 1;
+        s.method.cone_tracing.half_resolution = false;
+        s.method.cone_tracing.pattern_px = 1;
     }),
-    ("steps of 1/2 diameter", |s| s.cone_tracing.step_diameters = 0.5),
-    ("nearest samples", |s| s.cone_tracing.sampling = Sampling::Nearest),
-    ("trilinear samples", |s| s.cone_tracing.sampling = Sampling::Trilinear),
-    ("pointers a block", |s| s.cone_tracing.lookup = Lookup::BlockPointers),
-    ("pointers a node", |s| s.cone_tracing.lookup = Lookup::NodePointers),
-    ("occlusion alone", |s| s.look.surface = SurfaceView::Ao),
-    ("specular cones alone", |s| s.cone_tracing.diffuse = false),
-    ("every surface glossy", |s| s.cone_tracing.glossy_roughness = 1.0),
+    ("steps of 1/2 diameter", |s| s.method.cone_tracing.step_diameters = 0.5),
+    ("nearest samples", |s| s.method.cone_tracing.sampling = Sampling::Nearest),
+    ("trilinear samples", |s| s.method.cone_tracing.sampling = Sampling::Trilinear),
+    ("pointers a block", |s| s.method.cone_tracing.lookup = Lookup::BlockPointers),
+    ("pointers a node", |s| s.method.cone_tracing.lookup = Lookup::NodePointers),
+    ("occlusion alone", |s| s.method.look.surface = SurfaceView::Ao),
+    ("specular cones alone", |s| s.method.cone_tracing.diffuse = false),
+    ("every surface glossy", |s| s.method.cone_tracing.glossy_roughness = 1.0),
 ];
 
 pub async fn measure(lab: &mut Lab, report: &RefCell<KernelReport>, share: Share) -> Result<(), ExperimentError> {
     report.borrow_mut().surfaces = Some(SurfaceReport { size_px: SIZE_PX, variants: Vec::new() });
     let mut shown = lab.settings.clone();
-    (shown.look.view, shown.look.surface) = (View::Surfaces, SurfaceView::Final);
+    (shown.method.look.view, shown.method.look.surface) = (View::Surfaces, SurfaceView::Final);
     for (index, (name, change)) in VARIANTS.into_iter().enumerate() {
         let mut settings = shown.clone();
         change(&mut settings);
@@ -100,7 +100,7 @@ async fn measure_variant(
     let diffuse = [SurfaceWork::Diffuse, SurfaceWork::Filter];
     Ok(VariantCost {
         name,
-        cones: settings.cone_tracing,
+        cones: settings.method.cone_tracing,
         kernels_ms,
         diffuse_ms: diffuse.iter().filter_map(|work| works_ms.get(work)).fold(0.0, |sum, ms| sum + ms),
         total: Spread::of(&totals).ok_or_else(|| ExperimentError::NoTimes(name.to_owned()))?,

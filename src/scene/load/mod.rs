@@ -56,6 +56,7 @@ use self::{
     texture::Textures,
 };
 use super::{Clip, Node, Scene, Warning};
+use crate::digest::Digest;
 use crate::progress::Progress;
 
 /// Opens a file. `progress` counts its images, meshes and clips, and can cancel.
@@ -125,6 +126,7 @@ fn read(
     Ok(Scene {
         name: String::new(),
         source: None,
+        digest: Some(Digest::of_file(bytes)),
         nodes,
         meshes,
         materials,

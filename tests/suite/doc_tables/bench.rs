@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use octolume::settings::Settings;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
 
 use super::markdown::{Table, or_dash, three_digits};
 use super::measured::Files;
@@ -13,28 +16,13 @@ const LEAST_BYTES: u64 = 50_000;
 #[derive(Deserialize)]
 struct Report {
     scene: String,
+    #[serde(deserialize_with = "of_any_format")]
     settings: Settings,
     copy: Cost,
     kernels: Vec<Cost>,
     rebuild: Cost,
     light: Option<Light>,
     surfaces: Option<Surfaces>,
-}
-
-#[derive(Deserialize)]
-struct Settings {
-    discretization: Discretization,
-    motion: Motion,
-}
-
-#[derive(Deserialize)]
-struct Discretization {
-    grid: u32,
-}
-
-#[derive(Deserialize)]
-struct Motion {
-    turn_degrees: [f64; 3],
 }
 
 #[derive(Deserialize)]
@@ -87,14 +75,18 @@ struct Total {
     median_ms: f64,
 }
 
+fn of_any_format<'de, D: Deserializer<'de>>(settings: D) -> Result<Settings, D::Error> {
+    Settings::from_json(&Value::deserialize(settings)?.to_string()).map_err(D::Error::custom)
+}
+
 impl Report {
     /// "Sponza at 512³, turned by 10°".
     fn title(&self) -> String {
-        let turned = match self.settings.motion.turn_degrees[1] {
+        let turned = match self.settings.shot.motion.turn_degrees[1] {
             0.0 => String::new(),
             degrees => format!(", turned by {degrees}°"),
         };
-        format!("{} at {}³{turned}", self.scene, self.settings.discretization.grid)
+        format!("{} at {}³{turned}", self.scene, self.settings.method.discretization.grid)
     }
 
     /// In the order of a frame, the whole and the copy last; without clears and copies, which no folder has.

@@ -40,58 +40,62 @@ const SAMPLINGS: [Sampling; 3] = [Sampling::Nearest, Sampling::Trilinear, Sampli
 
 /// What everybody does most comes more than once.
 const CHANGES: [Change; 48] = [
-    |s, r| s.look.view = one_of(r, &VIEWS),
-    |s, r| s.look.view = one_of(r, &VIEWS),
-    |s, r| s.look.color = one_of(r, &COLORS),
-    |s, r| s.look.color = one_of(r, &COLORS),
-    |s, r| s.look.surface = one_of(r, &ALL_SURFACES),
-    |s, _| s.look.view = View::Surfaces,
-    |s, _| (s.look.view, s.look.color) = (View::Voxels, ColorBy::Radiance),
-    |s, r| s.look.level = one_of(r, &[None, Some(2), Some(5)]),
-    |s, r| s.look.alpha = one_of(r, &[AlphaRule::Paper, AlphaRule::Length]),
-    |s, _| s.look.voxel_edges ^= true,
-    |s, _| s.look.shaded ^= true,
-    |s, _| s.look.accuracy ^= true,
-    |s, _| s.look.accuracy ^= true,
-    |s, _| s.look.pointers ^= true,
-    |s, r| s.look.exposure_stops = one_of(r, &[None, Some(-2.0), Some(1.5)]),
-    |s, r| s.look.tone_curve = one_of(r, &[ToneCurve::Linear, ToneCurve::Reinhard, ToneCurve::Aces]),
-    |s, r| s.look.shadow_map = r.random_range(0..3),
-    |s, r| s.look.slice.axis = one_of(r, &[SliceAxis::X, SliceAxis::Y, SliceAxis::Z]),
-    |s, r| s.look.slice.height = between(r, 0.3, 0.7),
-    |s, r| s.look.slice.value = one_of(r, &[SliceValue::Radiance, SliceValue::Irradiance, SliceValue::Occupancy]),
-    |s, r| s.look.slice.lookup = one_of(r, &LOOKUPS),
-    |s, r| s.look.slice.sampling = one_of(r, &SAMPLINGS),
-    |s, r| (s.look.slice.logarithmic, s.look.slice.width_cells) = (flip(r), one_of(r, &[1.0, 3.0])),
-    |s, r| s.look.camera = flip(r).then(|| camera(r)),
-    |s, r| s.look.camera = Some(camera(r)),
-    |s, r| s.discretization.filter = one_of(r, &[Filter::Nearest, Filter::Split]),
-    |s, r| s.discretization.filter = one_of(r, &[Filter::Nearest, Filter::Split]),
-    |s, r| s.discretization.dense_level = one_of(r, &[2, 4, 6]),
-    |s, r| s.discretization.anchor = one_of(r, &[VoxelAnchor::Centre, VoxelAnchor::Corner]),
-    |s, r| s.motion.time_secs = between(r, 0.0, 1.2),
-    |s, r| s.motion.time_secs = between(r, 0.0, 1.2),
-    |s, r| s.motion.clip = one_of(r, &[None, Some("clip"), Some("")]).map(str::to_owned),
-    |s, r| s.motion.turn_degrees[1] = one_of(r, &[0.0, 10.0, 37.0]),
+    |s, r| s.method.look.view = one_of(r, &VIEWS),
+    |s, r| s.method.look.view = one_of(r, &VIEWS),
+    |s, r| s.method.look.color = one_of(r, &COLORS),
+    |s, r| s.method.look.color = one_of(r, &COLORS),
+    |s, r| s.method.look.surface = one_of(r, &ALL_SURFACES),
+    |s, _| s.method.look.view = View::Surfaces,
+    |s, _| (s.method.look.view, s.method.look.color) = (View::Voxels, ColorBy::Radiance),
+    |s, r| s.method.look.level = one_of(r, &[None, Some(2), Some(5)]),
+    |s, r| s.method.look.alpha = one_of(r, &[AlphaRule::Paper, AlphaRule::Length]),
+    |s, _| s.method.look.voxel_edges ^= true,
+    |s, _| s.method.look.shaded ^= true,
+    |s, _| s.method.look.accuracy ^= true,
+    |s, _| s.method.look.accuracy ^= true,
+    |s, _| s.method.look.pointers ^= true,
+    |s, r| s.method.look.exposure_stops = one_of(r, &[None, Some(-2.0), Some(1.5)]),
+    |s, r| s.method.look.tone_curve = one_of(r, &[ToneCurve::Linear, ToneCurve::Reinhard, ToneCurve::Aces]),
+    |s, r| s.method.look.shadow_map = r.random_range(0..3),
+    |s, r| s.method.look.slice.axis = one_of(r, &[SliceAxis::X, SliceAxis::Y, SliceAxis::Z]),
+    |s, r| s.method.look.slice.height = between(r, 0.3, 0.7),
+    |s, r| {
+        s.method.look.slice.value = one_of(r, &[SliceValue::Radiance, SliceValue::Irradiance, SliceValue::Occupancy])
+    },
+    |s, r| s.method.look.slice.lookup = one_of(r, &LOOKUPS),
+    |s, r| s.method.look.slice.sampling = one_of(r, &SAMPLINGS),
+    |s, r| (s.method.look.slice.logarithmic, s.method.look.slice.width_cells) = (flip(r), one_of(r, &[1.0, 3.0])),
+    |s, r| s.shot.camera = flip(r).then(|| camera(r)),
+    |s, r| s.shot.camera = Some(camera(r)),
+    |s, r| s.method.discretization.filter = one_of(r, &[Filter::Nearest, Filter::Split]),
+    |s, r| s.method.discretization.filter = one_of(r, &[Filter::Nearest, Filter::Split]),
+    |s, r| s.method.discretization.dense_level = one_of(r, &[None, Some(2), Some(4), Some(6)]),
+    |s, r| s.method.discretization.anchor = one_of(r, &[VoxelAnchor::Centre, VoxelAnchor::Corner]),
+    |s, r| s.shot.motion.time_secs = between(r, 0.0, 1.2),
+    |s, r| s.shot.motion.time_secs = between(r, 0.0, 1.2),
+    |s, r| s.shot.motion.clip = one_of(r, &[None, Some("clip"), Some("")]).map(str::to_owned),
+    |s, r| s.shot.motion.turn_degrees[1] = one_of(r, &[0.0, 10.0, 37.0]),
     |s, r| toggle_hidden(s, r),
-    |s, r| s.lighting.sun.shines = one_of(r, &[SunShines::Unlit, SunShines::Always, SunShines::Never]),
-    |s, r| s.lighting.sky_nits = [one_of(r, &[0.0, 0.5, 2.0]); 3],
-    |s, r| s.lighting.emission = one_of(r, &[0.0, 1.0, 3.0]),
-    |s, r| s.lighting.shadows = one_of(r, &[Shadows::Map, Shadows::March, Shadows::Off]),
-    |s, r| s.lighting.shadow_map_px = one_of(r, &[512, 1024]),
-    |s, r| s.lighting.opacity = one_of(r, &[Opacity::Isotropic, Opacity::Directional]),
-    |s, r| (s.lighting.bounces, s.lighting.cones) = (r.random_range(0..3), one_of(r, &[1, 2])),
+    |s, r| s.method.lighting.sun.shines = one_of(r, &[SunShines::Unlit, SunShines::Always, SunShines::Never]),
+    |s, r| s.method.lighting.sky_nits = [one_of(r, &[0.0, 0.5, 2.0]); 3],
+    |s, r| s.method.lighting.emission = one_of(r, &[0.0, 1.0, 3.0]),
+    |s, r| s.method.lighting.shadows = one_of(r, &[Shadows::Map, Shadows::March, Shadows::Off]),
+    |s, r| s.method.lighting.shadow_map_px = one_of(r, &[512, 1024]),
+    |s, r| s.method.lighting.opacity = one_of(r, &[Opacity::Isotropic, Opacity::Directional]),
+    |s, r| (s.method.lighting.bounces, s.method.lighting.cones) = (r.random_range(0..3), one_of(r, &[1, 2])),
     |s, r| edit_light(s, r),
     |s, r| edit_light(s, r),
     |s, r| edit_light(s, r),
     |s, r| {
-        let cones = &mut s.cone_tracing;
+        let cones = &mut s.method.cone_tracing;
         (cones.diffuse, cones.specular, cones.ambient_occlusion) = (flip(r), flip(r), flip(r));
     },
-    |s, r| (s.cone_tracing.lookup, s.cone_tracing.sampling) = (one_of(r, &LOOKUPS), one_of(r, &SAMPLINGS)),
-    |s, r| (s.cone_tracing.half_resolution, s.cone_tracing.pattern_px) = (flip(r), one_of(r, &[1, 2, 4])),
     |s, r| {
-        let cones = &mut s.cone_tracing;
+        (s.method.cone_tracing.lookup, s.method.cone_tracing.sampling) = (one_of(r, &LOOKUPS), one_of(r, &SAMPLINGS))
+    },
+    |s, r| (s.method.cone_tracing.half_resolution, s.method.cone_tracing.pattern_px) = (flip(r), one_of(r, &[1, 2, 4])),
+    |s, r| {
+        let cones = &mut s.method.cone_tracing;
         cones.indirect_px = one_of(r, &[None, Some([32, 24])]);
         (cones.glossy_roughness, cones.cones) = (one_of(r, &[0.05, 0.6, 1.0]), one_of(r, &[1, 3]));
     },
@@ -111,8 +115,8 @@ fn camera(rng: &mut TestRng) -> OrbitCamera {
 /// Nodes 0 is in every scene, 2 and 3 in the busy one: elsewhere they are refused, as a walk expects.
 fn toggle_hidden(settings: &mut Settings, rng: &mut TestRng) {
     let node = one_of(rng, &[0, 0, 2, 3]);
-    if !settings.visibility.hidden.remove(&node) {
-        settings.visibility.hide(node);
+    if !settings.shot.visibility.hidden.remove(&node) {
+        settings.shot.visibility.hide(node);
     }
 }
 
@@ -120,12 +124,12 @@ fn edit_light(settings: &mut Settings, rng: &mut TestRng) {
     let kind = octolume::scene::LightKind::Directional;
     let light = LightEdit { on: flip(rng), kind, color: [1.0, 0.5, 0.2], intensity: between(rng, 0.5, 4.0) };
     match rng.random_range(0..3) {
-        0 => settings.lighting.edits.clear(),
-        1 => drop(settings.lighting.edits.insert(6, light)),
-        _ if settings.lighting.added.is_empty() => {
+        0 => settings.method.lighting.edits.clear(),
+        1 => drop(settings.method.lighting.edits.insert(6, light)),
+        _ if settings.method.lighting.added.is_empty() => {
             let (name, position, direction) = ("ours".to_owned(), [1.0, 3.0, 1.0], [0.2, -1.0, 0.3]);
-            settings.lighting.added.push(AddedLight { name, light, position, direction });
+            settings.method.lighting.added.push(AddedLight { name, light, position, direction });
         }
-        _ => settings.lighting.added.clear(),
+        _ => settings.method.lighting.added.clear(),
     }
 }

@@ -55,6 +55,6 @@ fn a_part_whose_key_forgets_an_input_is_caught() {
     assert!(is_caught(|asked| asked.contents.rigid = Digest::default()), "rigid voxels forget their matrices");
     assert!(is_caught(|asked| asked.contents.lights = Digest::default()), "light forgets the lights");
     assert!(is_caught(|asked| asked.contents.camera = Digest::default()), "the surface image forgets the camera");
-    assert!(is_caught(|asked| asked.settings.discretization.filter = Filter::Split), "masks forget the filter");
-    assert!(is_caught(|asked| asked.settings.lighting.sky_nits = [0.5; 3]), "cones forget the sky");
+    assert!(is_caught(|asked| asked.settings.method.discretization.filter = Filter::Split), "masks forget the filter");
+    assert!(is_caught(|asked| asked.settings.method.lighting.sky_nits = [0.5; 3]), "cones forget the sky");
 }

@@ -88,7 +88,7 @@ impl Walker {
             walked: Walked::default(),
         };
         // Small shadow maps and few cones show as much, sooner.
-        (walker.settings.lighting.shadow_map_px, walker.settings.lighting.cones) = (512, 1);
+        (walker.settings.method.lighting.shadow_map_px, walker.settings.method.lighting.cones) = (512, 1);
         walker.open();
         walker
     }
@@ -128,14 +128,14 @@ impl Walker {
             self.discretize();
             // What was set before may be refused by another scene too.
             if self.engine.request(&self.settings, self.size_px).is_err() {
-                (self.settings.motion.clip, self.settings.visibility) = (None, Default::default());
+                (self.settings.shot.motion.clip, self.settings.shot.visibility) = (None, Default::default());
             }
         }
         self.advance()
     }
 
     fn discretize(&mut self) {
-        let discretization = &mut self.settings.discretization;
+        let discretization = &mut self.settings.method.discretization;
         (discretization.grid, discretization.mode) = (self.prepared.grid.cells(), self.prepared.mode);
     }
 
@@ -155,7 +155,7 @@ impl Walker {
     fn offer_exact(&mut self) {
         let mut settings = self.settings.clone();
         if self.once_in(3) {
-            settings.motion.time_secs += 0.1;
+            settings.shot.motion.time_secs += 0.1;
         }
         exact(&self.prepared, &settings).into_iter().for_each(|exact| self.engine.offer_exact(exact));
     }
@@ -226,12 +226,12 @@ impl Walker {
 }
 
 fn exact(prepared: &Prepared, settings: &Settings) -> Option<Arc<ExactVoxels>> {
-    let hidden = prepared.hidden(&settings.visibility).ok()?;
-    Some(Arc::new(prepared.exact(&settings.motion, &hidden, &Progress::default()).ok()?))
+    let hidden = prepared.hidden(&settings.shot.visibility).ok()?;
+    Some(Arc::new(prepared.exact(&settings.shot.motion, &hidden, &Progress::default()).ok()?))
 }
 
 fn exact_where_looked_at(prepared: &Prepared, settings: &Settings) -> Option<Arc<ExactVoxels>> {
-    let is_looked_at = settings.look.accuracy || settings.look.view == View::Ghost;
+    let is_looked_at = settings.method.look.accuracy || settings.method.look.view == View::Ghost;
     exact(prepared, settings).filter(|_| is_looked_at)
 }
 
