@@ -41,6 +41,11 @@ fn blended_matrix(first_matrix: u32, first_word: u32) -> Matrix3x4 {
     return sum;
 }
 
+// Joints of scale zero leave nothing of a voxel but a place.
+fn vanishes(m: Matrix3x4) -> bool {
+    return all(m.rows[0].xyz == vec3<f32>(0.0)) && all(m.rows[1].xyz == vec3<f32>(0.0)) && all(m.rows[2].xyz == vec3<f32>(0.0));
+}
+
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let index = thread_index(id, groups);
@@ -54,5 +59,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     let voxel = cache_voxels[item.first_voxel + local];
     // Joints are stored for skinned caches only, so their voxels are numbered apart.
     let first_word = 3u * (item.first_voxel + local - part.joints_skew);
-    world_voxels[slot_of(item, thread)] = move_voxel(voxel, part.origin, blended_matrix(part.first_matrix, first_word));
+    let matrix = blended_matrix(part.first_matrix, first_word);
+    if vanishes(matrix) {
+        world_voxels[slot_of(item, thread)] = vec4<u32>(OUTSIDE);
+        return;
+    }
+    world_voxels[slot_of(item, thread)] = move_voxel(voxel, part.origin, matrix);
 }

@@ -143,7 +143,7 @@ impl ExactJob {
         }
         let (scene, of_job) = (Arc::clone(scene), posed.clone());
         let work = Background::start(ctx, move |progress| {
-            scene.exact(&of_job.motion, &scene.hidden(&of_job.visibility)?, progress)
+            scene.exact(&of_job.motion, &scene.hidden(&of_job.visibility, &scene.pose(&of_job.motion)?)?, progress)
         });
         self.running = Some(Running { posed: posed.clone(), started: Instant::now(), work });
     }

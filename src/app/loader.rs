@@ -7,18 +7,17 @@ use std::sync::Arc;
 use super::background::{Background, Outcome};
 use super::outline::Outline;
 use crate::disk_cache::DiskCache;
-use crate::prepare::{PrepareError, Prepared, Stores, prepare_with};
+use crate::prepare::{Preparation, PrepareError, Prepared, Stores, prepare_with};
 use crate::progress::Progress;
 use crate::scene::load::{self, LoadError, OpenOptions, SceneChoice};
 use crate::scene::{Scene, builtin};
-use crate::settings::Discretization;
 
 /// A scene ready to be shown, and what it was made for.
 #[derive(Clone)]
 pub struct Ready {
     pub prepared: Arc<Prepared>,
     pub outline: Arc<Outline>,
-    pub discretization: Discretization,
+    pub preparation: Preparation,
     /// Another scene than before, not another grid for the same one.
     pub is_new: bool,
 }
@@ -32,7 +31,7 @@ pub struct Loader {
 struct Job {
     /// For the person: what is going on.
     title: String,
-    discretization: Discretization,
+    preparation: Preparation,
     opens: bool,
     work: Background<Result<Ready, Failure>>,
 }
@@ -61,37 +60,31 @@ impl Loader {
 
     /// Opens a file, or a built-in scene by its name; of several scenes in a file the default one,
     /// or the one that is chosen.
-    pub fn open(
-        &mut self,
-        ctx: &egui::Context,
-        source: &Path,
-        shown: Option<SceneChoice>,
-        discretization: Discretization,
-    ) {
+    pub fn open(&mut self, ctx: &egui::Context, source: &Path, shown: Option<SceneChoice>, preparation: Preparation) {
         let source = source.to_owned();
         let title = format!("Opening {}", file_name(&source));
         let options = OpenOptions { scene: shown, ..self.options.clone() };
-        let disk = self.disk.clone();
+        let (disk, wanted) = (self.disk.clone(), preparation.clone());
         let work = Background::start(ctx, move |progress| {
             let scene = Arc::new(open_scene(&source, &options, progress)?);
-            voxelize(scene, discretization, Stores { reuse: None, disk: disk.as_ref() }, progress)
+            voxelize(scene, wanted, Stores { reuse: None, disk: disk.as_ref() }, progress)
         });
-        self.job = Some(Job { title, discretization, opens: true, work });
+        self.job = Some(Job { title, preparation, opens: true, work });
     }
 
-    /// Voxelizes an open scene for another grid, span or mode.
-    pub fn discretize(&mut self, ctx: &egui::Context, open: &Arc<Prepared>, discretization: Discretization) {
-        if self.job.as_ref().is_some_and(|job| same_voxels(&job.discretization, &discretization)) {
+    /// Voxelizes an open scene for another grid, span, mode or clip.
+    pub fn discretize(&mut self, ctx: &egui::Context, open: &Arc<Prepared>, preparation: Preparation) {
+        if self.job.as_ref().is_some_and(|job| job.preparation.same_voxels(&preparation)) {
             return;
         }
         let open = Arc::clone(open);
-        let title = format!("Voxelizing at {0}³", discretization.grid);
-        let disk = self.disk.clone();
+        let title = format!("Voxelizing at {0}³", preparation.discretization.grid);
+        let (disk, wanted) = (self.disk.clone(), preparation.clone());
         let work = Background::start(ctx, move |progress| {
             let stores = Stores { reuse: Some(&open), disk: disk.as_ref() };
-            voxelize(Arc::clone(&open.scene), discretization, stores, progress)
+            voxelize(Arc::clone(&open.scene), wanted, stores, progress)
         });
-        self.job = Some(Job { title, discretization, opens: false, work });
+        self.job = Some(Job { title, preparation, opens: false, work });
     }
 
     pub fn cancel(&mut self) {
@@ -124,11 +117,6 @@ impl Loader {
     }
 }
 
-/// Whether two settings need the same voxel caches.
-pub fn same_voxels(a: &Discretization, b: &Discretization) -> bool {
-    (a.grid, a.span, a.mode) == (b.grid, b.span, b.mode)
-}
-
 /// The file's name, or all of a path that has none.
 pub fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
@@ -147,14 +135,14 @@ fn open_scene(source: &Path, options: &OpenOptions, progress: &Progress) -> Resu
 
 fn voxelize(
     scene: Arc<Scene>,
-    discretization: Discretization,
+    preparation: Preparation,
     stores: Stores<'_>,
     progress: &Progress,
 ) -> Result<Ready, Failure> {
-    match prepare_with(scene, &discretization, stores, progress) {
+    match prepare_with(scene, preparation.clone(), stores, progress) {
         Ok(prepared) => {
             let outline = Arc::new(Outline::new(&prepared));
-            Ok(Ready { prepared: Arc::new(prepared), outline, discretization, is_new: stores.reuse.is_none() })
+            Ok(Ready { prepared: Arc::new(prepared), outline, preparation, is_new: stores.reuse.is_none() })
         }
         Err(PrepareError::Cancelled(_)) => Err(Failure::Cancelled),
         Err(error) => Err(Failure::Cause(error.to_string())),

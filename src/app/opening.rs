@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use super::inspector::Pin;
 use super::journal::Severity;
-use super::loader::{Ready, same_voxels};
+use super::loader::Ready;
 use super::panels::tree::TreeState;
 use super::undo::Undo;
 use super::{App, panels};
-use crate::prepare::Prepared;
+use crate::prepare::{Preparation, Prepared};
 use crate::scene::Scene;
 use crate::scene::camera::camera_from_scene_camera;
 use crate::scene::load::SceneChoice;
@@ -21,7 +21,7 @@ impl App {
         if self.scene.is_some() {
             self.settings.method.discretization.span = None;
         }
-        self.loader.open(ctx, &path, shown, self.settings.method.discretization);
+        self.loader.open(ctx, &path, shown, Preparation::from(&self.settings));
         self.desk.path = path.display().to_string();
     }
 
@@ -42,9 +42,7 @@ impl App {
     /// What could not be made is not asked for again.
     fn keep_open_scene(&mut self) {
         if let Some(ready) = &self.scene {
-            let made = ready.discretization;
-            let wanted = &mut self.settings.method.discretization;
-            (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);
+            ready.preparation.keep_in(&mut self.settings);
         }
     }
 
@@ -65,9 +63,9 @@ impl App {
                 Err(cause) => self.journal.tell(Severity::Error, cause),
             }
         }
-        let wanted = self.settings.method.discretization;
+        let wanted = Preparation::from(&self.settings);
         match &self.scene {
-            Some(ready) if self.loader.is_opening() || same_voxels(&ready.discretization, &wanted) => {}
+            Some(ready) if self.loader.is_opening() || ready.preparation.same_voxels(&wanted) => {}
             Some(ready) => self.loader.discretize(ctx, &ready.prepared, wanted),
             None => {}
         }

@@ -136,7 +136,7 @@ mod tests {
 
     fn node(name: &str, parent: Option<usize>, mesh: Option<usize>) -> Node {
         let local = LocalTransform::Trs(Trs::default());
-        Node { name: name.to_owned(), parent, local, mesh, skin: None, camera: None, light: None }
+        Node { name: name.to_owned(), parent, local, mesh, skin: None, camera: None, light: None, is_visible: true }
     }
 
     fn triangle() -> Mesh {

@@ -65,9 +65,7 @@ impl App {
         if let Some(ready) = &self.scene {
             // The window decides how large it is.
             (settings.shot.scene, settings.shot.size_px) = (Some(ready.prepared.scene.identity()), None);
-            let made = ready.discretization;
-            let wanted = &mut settings.method.discretization;
-            (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);
+            ready.preparation.keep_in(&mut settings);
             let looked_at = settings.method.look.accuracy || settings.method.look.view == View::Ghost;
             let update = self.exact.update(ui.ctx(), &ready.prepared, &Posed::of(&settings), looked_at);
             (settings.shot.motion, settings.shot.visibility) = (update.posed.motion, update.posed.visibility);

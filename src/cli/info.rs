@@ -110,7 +110,7 @@ impl Facts {
             extensions: scene.extensions.clone(),
             memory_bytes: scene.memory_bytes,
             warnings: prepared.warnings.iter().map(Warning::to_string).collect(),
-            bounds: prepared.bounds.map(Bounds::from),
+            bounds: prepared.reach.map(Bounds::from),
             grid: settings.method.discretization.grid,
             span: prepared.grid.span,
             grid_corner: prepared.grid.corner().to_array(),

@@ -74,7 +74,7 @@ impl Session {
     /// Voxelizes the posed mesh exactly: the truth for ghost and accuracy.
     pub fn take_exact(&mut self, settings: &Settings) -> anyhow::Result<()> {
         let prepared = &self.prepared;
-        let hidden = prepared.hidden(&settings.shot.visibility)?;
+        let hidden = prepared.hidden(&settings.shot.visibility, &prepared.pose(&settings.shot.motion)?)?;
         let exact = output::with_progress("voxelizing the posed mesh", |progress| {
             prepared.exact(&settings.shot.motion, &hidden, progress)
         })?;
@@ -128,8 +128,6 @@ fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
 }
 
 fn voxelize(scene: Arc<Scene>, settings: &Settings, stores: Stores) -> anyhow::Result<Arc<Prepared>> {
-    let prepared = output::with_progress("voxelizing", |progress| {
-        prepare_with(scene, &settings.method.discretization, stores, progress)
-    });
+    let prepared = output::with_progress("voxelizing", |progress| prepare_with(scene, settings, stores, progress));
     Ok(Arc::new(prepared?))
 }

@@ -59,7 +59,7 @@ impl Voxels {
 
     fn exact(&self, settings: &mut Settings) -> anyhow::Result<(WorldVoxels, Grid)> {
         let prepared = prepare_only(&self.scene, &self.common, self.common.disk_cache().as_ref(), settings)?;
-        let hidden = prepared.hidden(&settings.shot.visibility)?;
+        let hidden = prepared.hidden(&settings.shot.visibility, &prepared.pose(&settings.shot.motion)?)?;
         let surface = output::with_progress("voxelizing the posed mesh", |progress| {
             prepared.exact_voxels(&settings.shot.motion, &hidden, progress)
         })?;

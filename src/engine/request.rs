@@ -146,9 +146,9 @@ impl Shot {
         size_px: [u32; 2],
         exacts: &[Arc<ExactVoxels>],
     ) -> Result<Self, EngineError> {
-        let hidden = prepared.hidden(&settings.shot.visibility)?;
-        let shown = settings.shot.visibility.shown_nodes(&prepared.scene)?;
         let pose = Arc::new(prepared.pose(&settings.shot.motion)?);
+        let hidden = prepared.hidden(&settings.shot.visibility, &pose)?;
+        let shown = prepared.shown_nodes(&settings.shot.visibility, &pose)?;
         let placed = prepared.placed(&pose, &hidden);
         // A picture has at least one pixel.
         let size_px = size_px.map(|side| side.max(1));

@@ -22,7 +22,7 @@ pub struct ShadowLayouts {
 
 impl ShadowLayouts {
     pub fn new(prepared: &Prepared, lights: &[PosedLight], settings: &Settings) -> Self {
-        let bounds = prepared.bounds.map(|bounds| turned(bounds, &settings.shot.motion));
+        let bounds = prepared.reach.map(|bounds| turned(bounds, &settings.shot.motion));
         let sized = |size_px: u32| -> Vec<ShadowParams> {
             lights.iter().map(|light| ShadowParams::new(light, &prepared.grid, bounds, size_px)).collect()
         };

@@ -1,25 +1,32 @@
 //! Which clip of the scene moves it, and how far it goes.
 
 use super::{MotionError, Prepared};
+use crate::scene::Scene;
 use crate::settings::MotionSettings;
 
+/// [`Prepared::clip_index`], before anything is prepared.
+pub(super) fn clip_index(scene: &Scene, motion: &MotionSettings) -> Result<Option<usize>, MotionError> {
+    let clips = &scene.clips;
+    let Some(name) = &motion.clip else { return Ok(scene.first_clip()) };
+    if name.is_empty() {
+        return Ok(None);
+    }
+    let by_number = || name.parse().ok().filter(|number| *number < clips.len());
+    let index = clips.iter().position(|clip| &clip.name == name).or_else(by_number);
+    index.map(Some).ok_or_else(|| MotionError::UnknownClip {
+        scene: scene.name.clone(),
+        clip: name.clone(),
+        known: match clips.len() {
+            0 => "none".to_owned(),
+            _ => clips.iter().map(|clip| format!("\"{}\"", clip.name)).collect::<Vec<_>>().join(", "),
+        },
+    })
+}
+
 impl Prepared {
-    /// Clip by name: the first where none is named, the rest pose for an empty name.
+    /// Clip by name, or else by number from 0: the first where none is named, the rest pose for an empty name.
     pub fn clip_index(&self, motion: &MotionSettings) -> Result<Option<usize>, MotionError> {
-        let clips = &self.scene.clips;
-        let Some(name) = &motion.clip else { return Ok((!clips.is_empty()).then_some(0)) };
-        if name.is_empty() {
-            return Ok(None);
-        }
-        let index = clips.iter().position(|clip| &clip.name == name);
-        index.map(Some).ok_or_else(|| MotionError::UnknownClip {
-            scene: self.scene.name.clone(),
-            clip: name.clone(),
-            known: match clips.len() {
-                0 => "none".to_owned(),
-                _ => clips.iter().map(|clip| format!("\"{}\"", clip.name)).collect::<Vec<_>>().join(", "),
-            },
-        })
+        clip_index(&self.scene, motion)
     }
 
     /// The time is one that the clip does not reach, a sentence. A clip holds its last pose after its end, which looks

@@ -3,11 +3,12 @@
 
 use std::collections::HashMap;
 
-use glam::{DMat4, DVec3, IVec3};
+use glam::{DMat3, DMat4, DVec3, IVec3};
 
-use super::{Prepared, PreparedPart};
+use super::{Lattice, Prepared, PreparedPart};
 use crate::data::matrix::Matrix3x4;
 use crate::data::voxel_cache::{Tile, VoxelCache};
+use crate::scene::polar::unflattened;
 use crate::scene::{Motion, Pose};
 use crate::settings::{Hidden, MotionSettings, VoxelAnchor};
 use crate::stages::transform::PartRecord;
@@ -93,6 +94,12 @@ pub(super) fn used_joints(cache: &VoxelCache, tile: &Tile) -> Vec<usize> {
     (0..is_used.len()).filter(|&joint| is_used[joint]).collect()
 }
 
+/// The matrix of an object that is always flat, as if its voxels had a thickness.
+fn with_thickness(world_from_node: &DMat4) -> DMat4 {
+    let linear = unflattened(DMat3::from_mat4(*world_from_node));
+    DMat4::from_translation(world_from_node.w_axis.truncate()) * DMat4::from_mat3(linear)
+}
+
 struct Fold<'a> {
     prepared: &'a Prepared,
     grid_from_world: DMat4,
@@ -114,7 +121,11 @@ impl Fold<'_> {
     /// Every rigid part has a matrix, so that each finds its own; zero where nothing reads it.
     fn rigid_part(&mut self, part: &PreparedPart, pose: &Pose, is_hidden: bool) {
         let object = &self.prepared.objects[part.object];
-        let moved = if object.lattice.is_grid() { self.turn } else { pose.world_from_node[object.object.node] };
+        let moved = match &object.lattice {
+            Lattice::Grid { .. } => self.turn,
+            Lattice::Own { is_flat: true, .. } => with_thickness(&pose.world_from_node[object.object.node]),
+            Lattice::Own { .. } => pose.world_from_node[object.object.node],
+        };
         let grid_from_cells = self.grid_from_world * moved * object.lattice.space_from_cells();
         let rounded = self.rounded(&grid_from_cells, part.tile.origin);
         let reaches = MovedBox::of(&grid_from_cells, part).touches_grid(self.prepared.grid.cells());

@@ -3,14 +3,22 @@
 
 use super::Prepared;
 use crate::digest::Digest;
-use crate::scene::Pose;
+use crate::scene::{Object, Pose};
 use crate::settings::{Hidden, Visibility, VisibilityError};
 
 impl Prepared {
-    /// What of this scene is hidden.
-    pub fn hidden(&self, visibility: &Visibility) -> Result<Hidden, VisibilityError> {
+    /// What of this scene is hidden in a pose: by a person, by the file, or by a scale that leaves nothing.
+    pub fn hidden(&self, visibility: &Visibility, pose: &Pose) -> Result<Hidden, VisibilityError> {
         let shown = visibility.shown_nodes(&self.scene)?;
-        Ok(self.objects.iter().map(|object| !shown[object.object.node]).collect())
+        let is_hidden = |object: &Object| !shown[object.node] || !self.scene.is_seen(object, pose);
+        Ok(self.objects.iter().map(|object| is_hidden(&object.object)).collect())
+    }
+
+    /// The same by node, for what nodes carry beside objects.
+    pub fn shown_nodes(&self, visibility: &Visibility, pose: &Pose) -> Result<Vec<bool>, VisibilityError> {
+        let mut shown = visibility.shown_nodes(&self.scene)?;
+        shown.iter_mut().enumerate().for_each(|(node, shown)| *shown &= pose.shows(node));
+        Ok(shown)
     }
 
     /// Stands for where every triangle is, which are hidden, and the grid around them: by bits, so that a matrix that

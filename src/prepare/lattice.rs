@@ -12,7 +12,8 @@ use crate::data::packing::unpack_position;
 use crate::data::voxel_cache::{Tile, VoxelCache};
 use crate::scene::bounds::Aabb;
 use crate::scene::geometry::normal_matrix;
-use crate::scene::{Motion, MotionReport, Object, Pose, Scene};
+use crate::scene::polar::unflattened;
+use crate::scene::{Motion, MotionReport, Object, Pose, Scene, Warning};
 use crate::settings::Discretization;
 
 /// Where an object's cache lies.
@@ -20,8 +21,8 @@ use crate::settings::Discretization;
 pub enum Lattice {
     /// The grid's own, counted from its anchor, with the rest pose baked in: a static object.
     Grid { grid: Grid, world_from_mesh: DMat4 },
-    /// The object's: stretch baked in, origin at zero of the space that node or joints move.
-    Own { cells_from_mesh: DMat4, space_from_cells: DMat4 },
+    /// The object's: stretch baked in, origin at zero of the space that node or joints move. What is flat always is.
+    Own { cells_from_mesh: DMat4, space_from_cells: DMat4, is_flat: bool },
 }
 
 impl Lattice {
@@ -96,30 +97,51 @@ pub fn grid_around(scene: &str, bounds: Option<Aabb>, discretization: &Discretiz
     Ok(Grid { anchor, offset_cells, span, depth: discretization.depth() })
 }
 
-/// The objects that can be seen at some time, each on its lattice. `cache` is numbered later.
-pub fn visible_objects(scene: &Scene, grid: &Grid, motion: MotionReport) -> Vec<PreparedObject> {
+/// Still objects that share a mesh lie where they stand, each with voxels of its own, as long as these are made from
+/// fewer triangles.
+const MOST_STILL_TRIANGLES: usize = 1 << 22;
+
+/// The objects that can be seen at some time, each on its lattice, and a warning for each mesh whose still objects share
+/// voxels. `cache` is numbered later.
+pub fn visible_objects(scene: &Scene, grid: &Grid, motion: MotionReport) -> (Vec<PreparedObject>, Vec<Warning>) {
     let MotionReport { objects, hidden, stretching: _ } = motion;
     let rest = scene.pose(None, 0.0);
     let mut uses: HashMap<usize, usize> = HashMap::new();
-    for object in &objects {
+    for object in objects.iter().filter(|object| object.motion == Motion::Static) {
         *uses.entry(object.mesh).or_default() += 1;
     }
+    let too_many = |mesh: usize, count: usize| count * scene.meshes[mesh].triangle_count() > MOST_STILL_TRIANGLES;
+    let shared: HashMap<usize, usize> =
+        uses.into_iter().filter(|&(mesh, count)| count > 1 && too_many(mesh, count)).collect();
+    let mut warnings: Vec<Warning> = shared.iter().map(|(&mesh, &count)| share_warning(scene, mesh, count)).collect();
+    warnings.sort_by(|a, b| a.sentence.cmp(&b.sentence));
     let visible = objects.into_iter().enumerate().filter(|(index, _)| !hidden.contains(index));
-    visible
-        .map(|(_, object)| {
-            let lattice = lattice_of(&object, &rest, grid, uses[&object.mesh] == 1);
-            PreparedObject { object, cache: 0, lattice }
-        })
-        .collect()
+    let prepared = visible.map(|(_, object)| {
+        let lattice = lattice_of(&object, &rest, grid, !shared.contains_key(&object.mesh));
+        PreparedObject { object, cache: 0, lattice }
+    });
+    (prepared.collect(), warnings)
 }
 
-fn lattice_of(object: &Object, rest: &Pose, grid: &Grid, used_once: bool) -> Lattice {
-    if object.motion == Motion::Static && used_once {
+fn share_warning(scene: &Scene, mesh: usize, count: usize) -> Warning {
+    let sentence = format!(
+        "mesh \"{}\": its {count} still objects share voxels, which are moved to where they stand and fall up to half a \
+         cell beside; voxels of their own would be made from more than {MOST_STILL_TRIANGLES} triangles",
+        scene.meshes[mesh].name
+    );
+    let nodes = scene.nodes.iter().enumerate().filter(|(_, node)| node.mesh == Some(mesh));
+    Warning { nodes: nodes.map(|(index, _)| index).collect(), ..Warning::new(sentence) }
+}
+
+fn lattice_of(object: &Object, rest: &Pose, grid: &Grid, has_own: bool) -> Lattice {
+    if object.motion == Motion::Static && has_own {
         return Lattice::Grid { grid: *grid, world_from_mesh: rest.world_from_node[object.node] };
     }
+    let thick = unflattened(object.stretch);
     Lattice::Own {
         cells_from_mesh: DMat4::from_scale(DVec3::splat(1.0 / grid.span)) * DMat4::from_mat3(object.stretch),
-        space_from_cells: DMat4::from_mat3(object.stretch.inverse()) * DMat4::from_scale(DVec3::splat(grid.span)),
+        space_from_cells: DMat4::from_mat3(thick.inverse()) * DMat4::from_scale(DVec3::splat(grid.span)),
+        is_flat: thick != object.stretch,
     }
 }
 

@@ -23,7 +23,7 @@ impl Prepared {
     /// Every light of the pose that settings ask for.
     pub fn known_lights(&self, settings: &Settings) -> Result<Vec<KnownLight>, LightsError> {
         let pose = self.pose(&settings.shot.motion)?;
-        let shown = settings.shot.visibility.shown_nodes(&self.scene)?;
+        let shown = self.shown_nodes(&settings.shot.visibility, &pose)?;
         Ok(known_lights(&self.scene, &pose, &settings.method.lighting, &shown, self.emits(&settings.method.lighting)))
     }
 }

@@ -5,6 +5,7 @@
 mod caches;
 mod clips;
 mod emission;
+mod enclose;
 mod exact;
 mod fold;
 mod framing;
@@ -12,6 +13,7 @@ mod hidden;
 pub mod kept;
 mod lattice;
 mod lights;
+mod preparation;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -23,8 +25,7 @@ use crate::data::voxel_cache::{Tile, VoxelCache};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::bounds::Aabb;
 use crate::scene::{Motion, Object, Scene, Warning};
-use crate::settings::Discretization;
-use crate::settings::VoxelizationMode;
+use crate::settings::{VisibilityError, VoxelizationMode};
 use crate::stages::voxelize::{TexturePyramids, VoxelizeError};
 
 pub use caches::{CacheOrigins, Stores};
@@ -33,6 +34,7 @@ pub use exact::{ExactError, ExactSurface, ExactVoxel, ExactVoxels};
 pub use fold::{FrameMatrices, MotionError};
 pub use lattice::Lattice;
 pub use lights::LightsError;
+pub use preparation::Preparation;
 
 /// A scene made ready for a grid. Immutable; shared by window, engine and background work.
 #[derive(Debug)]
@@ -49,8 +51,12 @@ pub struct Prepared {
     pub parts: Vec<PreparedPart>,
     /// Largest channel of any voxel's emission, nits; 0 where nothing emits.
     pub brightest_emission: f32,
-    /// The scene's posed bounds over all its animation; `None` where there is nothing to see.
+    /// What it was made for.
+    pub preparation: Preparation,
+    /// What the grid encloses or is centred on; `None` where there is nothing to see.
     pub bounds: Option<Aabb>,
+    /// The scene's posed bounds at rest and over all its clips, wherever the grid is.
+    pub reach: Option<Aabb>,
     pub warnings: Vec<Warning>,
     pub voxelize_ms: f64,
     keys: Vec<CacheKey>,
@@ -81,6 +87,10 @@ pub struct PreparedPart {
 pub enum PrepareError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    #[error(transparent)]
+    Visibility(#[from] VisibilityError),
     #[error("{scene}: object \"{object}\" cannot be voxelized: {cause}")]
     Object { scene: String, object: String, cause: VoxelizeError },
     #[error("the span is {0}; it must be a positive, finite number of scene units")]
@@ -106,27 +116,32 @@ struct CacheKey {
 /// is read from or written to the disk.
 pub fn prepare(
     scene: Arc<Scene>,
-    discretization: &Discretization,
+    preparation: impl Into<Preparation>,
     reuse: Option<&Prepared>,
     progress: &Progress,
 ) -> Result<Prepared, PrepareError> {
-    prepare_with(scene, discretization, Stores { reuse, disk: None }, progress)
+    prepare_with(scene, preparation, Stores { reuse, disk: None }, progress)
 }
 
 /// The same, looking first for voxels in `stores`; what is voxelized is kept on the disk.
 pub fn prepare_with(
     scene: Arc<Scene>,
-    discretization: &Discretization,
+    preparation: impl Into<Preparation>,
     stores: Stores,
     progress: &Progress,
 ) -> Result<Prepared, PrepareError> {
     let started = Instant::now();
-    let bounds = scene.bounds_over_time();
+    let preparation = preparation.into();
+    let discretization = &preparation.discretization;
+    let clip = clips::clip_index(&scene, &preparation.motion)?;
+    let (bounds, left_out) = enclose::enclosed(&scene, &preparation, clip)?;
     let grid = lattice::grid_around(&scene.name, bounds, discretization)?;
-    let motion = scene.motion_report(grid.span);
+    let motion = scene.motion_report(grid.span, clip);
     let mut warnings = scene.warnings.clone();
+    warnings.extend(left_out);
     warnings.extend(motion.warnings());
-    let mut objects = lattice::visible_objects(&scene, &grid, motion);
+    let (mut objects, shared) = lattice::visible_objects(&scene, &grid, motion);
+    warnings.extend(shared);
     let (keys, first_users) = number_caches(&mut objects);
     let mode = discretization.mode;
     let reuse = stores.reuse.filter(|old| Arc::ptr_eq(&old.scene, &scene));
@@ -146,9 +161,12 @@ pub fn prepare_with(
     let parts = list_parts(&objects, &caches);
     let (brightest_emission, warning) = emission::brightest(&scene.name, &caches);
     warnings.extend(warning);
+    let reach = scene.bounds_over_time();
     let voxelize_ms = started.elapsed().as_secs_f64() * 1e3;
     Ok(Prepared {
         scene,
+        reach,
+        preparation,
         textures,
         grid,
         mode,

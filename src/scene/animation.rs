@@ -37,7 +37,7 @@ pub struct Channel {
     pub node: usize,
     pub property: Property,
     pub interpolation: Interpolation,
-    /// Strictly increasing, seconds.
+    /// Seconds, never decreasing; at the time of several keys the value jumps.
     pub times_secs: Vec<f64>,
     /// Per key: 3 or 4 numbers ([`Property::width`]); for CUBICSPLINE in-tangent, value, out-tangent.
     /// STEP and LINEAR rotations are unit quaternions, xyzw.
@@ -49,6 +49,8 @@ pub enum Property {
     Translation,
     Rotation,
     Scale,
+    /// Of the node with all that is below it: 0 hides it.
+    Visibility,
 }
 
 impl Property {
@@ -58,6 +60,7 @@ impl Property {
             Self::Translation => "translation",
             Self::Rotation => "rotation",
             Self::Scale => "scale",
+            Self::Visibility => "visibility",
         }
     }
 
@@ -66,6 +69,7 @@ impl Property {
         match self {
             Self::Rotation => 4,
             Self::Translation | Self::Scale => 3,
+            Self::Visibility => 1,
         }
     }
 }
@@ -139,6 +143,13 @@ impl Channel {
             },
         };
         DVec3::from_array(value)
+    }
+
+    /// The number of the last key: 0 where it hides. Steps, whatever lies between.
+    pub fn sample_number(&self, time_secs: f64) -> f64 {
+        let (Place::At(key) | Place::After { key, .. }) = self.place(time_secs);
+        let [number] = self.value(key);
+        number
     }
 
     /// Rotation at a time, of unit length.

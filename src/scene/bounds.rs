@@ -56,7 +56,8 @@ impl Aabb {
     }
 }
 
-fn union(a: Option<Aabb>, b: Option<Aabb>) -> Option<Aabb> {
+/// Of what is there.
+pub fn union(a: Option<Aabb>, b: Option<Aabb>) -> Option<Aabb> {
     match (a, b) {
         (Some(a), Some(b)) => Some(a.union(&b)),
         (a, b) => a.or(b),
@@ -70,36 +71,68 @@ impl Scene {
     /// The box of every vertex in a pose, exactly. `None` where there is nothing to see; objects
     /// whose matrices are not finite do not count.
     pub fn bounds_at(&self, pose: &Pose) -> Option<Aabb> {
-        self.mesh_nodes().fold(None, |bounds, object| union(bounds, self.object_bounds(&object, pose)))
+        let seen = self.mesh_nodes().filter(|object| self.is_seen(object, pose));
+        seen.fold(None, |bounds, object| union(bounds, self.object_bounds(&object, pose)))
     }
 
     /// A box that holds the scene at rest and over all its clips: at every key and half-way between
     /// keys, or at 257 of these moments, evenly picked, where a clip has more.
     pub fn bounds_over_time(&self) -> Option<Aabb> {
         let rest = self.pose(None, 0.0);
+        let objects: Vec<Object> = self.mesh_nodes().collect();
+        let at_rest = objects.iter().fold(None, |bounds, object| union(bounds, self.object_bounds(object, &rest)));
+        (0..self.clips.len()).fold(at_rest, |bounds, clip| {
+            let of_clip = self.boxes_over_clip(&objects, Some(clip));
+            of_clip.into_iter().fold(bounds, union)
+        })
+    }
+
+    /// By object the box over a clip, or at rest without one; `None` where there is nothing to see of it.
+    pub fn boxes_over_clip(&self, objects: &[Object], clip: Option<usize>) -> Vec<Option<Aabb>> {
+        let Some((index, clip)) = clip.and_then(|clip| Some((clip, self.clips.get(clip)?))) else {
+            return self.boxes_at(objects, &self.pose(None, 0.0));
+        };
+        let times = clip.sample_times(MAX_BOUNDS_SAMPLES);
+        let first = self.pose(Some(index), times.first().copied().unwrap_or(0.0));
         let moving = self.moving_nodes();
-        let mut bounds = None;
-        let mut movers = Vec::new();
-        for object in self.mesh_nodes() {
-            bounds = union(bounds, self.object_bounds(&object, &rest));
-            match object.motion {
-                Motion::Rigid => movers.push(Mover::Rigid(object.node, self.mesh_box(object.mesh))),
-                Motion::Skinned { skin } if self.skins[skin].joints.iter().any(|&joint| moving[joint]) => {
-                    movers.push(Mover::Skinned(
-                        skin,
-                        joint_boxes(&self.meshes[object.mesh], self.skins[skin].joints.len()),
-                    ));
+        let mut boxes = self.boxes_at(objects, &first);
+        let movers: Vec<(usize, Mover)> = (0..)
+            .zip(objects)
+            .filter_map(|(number, object)| Some((number, self.mover_box(object, &moving)?)))
+            .collect();
+        for pose in times.iter().skip(1).map(|&time_secs| self.pose(Some(index), time_secs)) {
+            for (number, mover) in &movers {
+                if self.is_seen(&objects[*number], &pose) {
+                    boxes[*number] = union(boxes[*number], self.mover_bounds(mover, &pose));
                 }
-                _ => {}
             }
         }
-        for (clip_index, clip) in self.clips.iter().enumerate().filter(|_| !movers.is_empty()) {
-            for time_secs in clip.sample_times(MAX_BOUNDS_SAMPLES) {
-                let pose = self.pose(Some(clip_index), time_secs);
-                bounds = movers.iter().fold(bounds, |bounds, mover| union(bounds, self.mover_bounds(mover, &pose)));
-            }
+        boxes
+    }
+
+    /// By object the box in a pose, exactly; `None` where there is nothing to see of it.
+    pub fn boxes_at(&self, objects: &[Object], pose: &Pose) -> Vec<Option<Aabb>> {
+        let bounds = |object: &Object| self.object_bounds(object, pose).filter(|_| self.is_seen(object, pose));
+        objects.iter().map(bounds).collect()
+    }
+
+    /// Whether a pose leaves anything to see of an object. The node that carries a skinned one only hides it.
+    pub fn is_seen(&self, object: &Object, pose: &Pose) -> bool {
+        match object.motion {
+            Motion::Skinned { .. } => pose.is_visible[object.node],
+            Motion::Static | Motion::Rigid => pose.shows(object.node),
         }
-        bounds
+    }
+
+    fn mover_box(&self, object: &Object, moving: &[bool]) -> Option<Mover> {
+        match object.motion {
+            Motion::Rigid => Some(Mover::Rigid(object.node, self.mesh_box(object.mesh))),
+            Motion::Skinned { skin } if self.skins[skin].joints.iter().any(|&joint| moving[joint]) => {
+                let joints = self.skins[skin].joints.len();
+                Some(Mover::Skinned(skin, joint_boxes(&self.meshes[object.mesh], joints)))
+            }
+            Motion::Static | Motion::Skinned { .. } => None,
+        }
     }
 
     fn mover_bounds(&self, mover: &Mover, pose: &Pose) -> Option<Aabb> {

@@ -82,6 +82,8 @@ pub struct Node {
     pub skin: Option<usize>,
     pub camera: Option<usize>,
     pub light: Option<usize>,
+    /// KHR_node_visibility: where it is not, neither is anything below it. A clip may change it.
+    pub is_visible: bool,
 }
 
 /// glTF gives a node either a matrix (never animated) or translation, rotation, scale.

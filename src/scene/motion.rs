@@ -2,8 +2,9 @@
 //! (right-polar decomposition W = R·U).
 //!
 //! The paper moves voxels rigidly. What a world matrix does beyond turning and shifting, U, is
-//! baked into the mesh before voxelization, as its mean over the clips; an object whose U strays
-//! from that mean by half a cell or more is one the method cannot move, and is named.
+//! baked into the mesh before voxelization, as its mean over the clip that is played; an object whose
+//! U strays from that mean by half a cell or more is named. A rigid one then gets its largest U: its
+//! voxels are more than it needs when it is small, and never leave holes.
 
 use glam::DMat3;
 
@@ -17,8 +18,9 @@ pub struct Object {
     pub mesh: usize,
     pub motion: Motion,
     /// U, baked into the mesh before voxelization: what is left to move is rigid.
-    /// The node's for rigid objects; one for all parts of a skin, the mean over joints and clips.
-    /// The identity where no moment has a regular matrix: the object is hidden.
+    /// The node's for rigid objects; one for all parts of a skin, the mean over its joints. Over the clip that is
+    /// played the mean, and the largest where that would leave holes. Flat where the object always is; the identity
+    /// where it never has an area: the object is hidden.
     pub stretch: DMat3,
 }
 
@@ -40,10 +42,10 @@ pub(super) const LAST_BITS: f64 = 1.0 / (1 << 20) as f64;
 #[derive(Clone, Debug)]
 pub struct MotionReport {
     pub objects: Vec<Object>,
-    /// Their matrices are singular or not finite at all times.
+    /// Their matrices leave no area, or are not finite, at all times.
     pub hidden: Vec<usize>,
-    /// Their stretch strays from the mean that is baked, so far that some vertex is half a cell or
-    /// more off at some time; the largest such distance in cells.
+    /// Their stretch strays from its mean so far that some vertex is half a cell or more off at some time; the
+    /// largest such distance in cells.
     pub stretching: Vec<(usize, f64)>,
 }
 
@@ -57,44 +59,50 @@ impl MotionReport {
         let hidden = self
             .hidden
             .iter()
-            .map(|&object| about(object, "is hidden: its matrix is singular or not finite at all times"));
+            .map(|&object| about(object, "is hidden: its matrix leaves no area, or is not finite, at all times"));
         let stretching = self.stretching.iter().map(|&(object, cells)| {
-            about(object, &format!("stretches by up to {cells:.1} cells; it is moved with its mean stretch"))
+            let moved = match self.objects[object].motion {
+                Motion::Skinned { .. } => "it is moved with its mean stretch",
+                Motion::Static | Motion::Rigid => "it has the voxels of its largest stretch at all times",
+            };
+            about(object, &format!("stretches by up to {cells:.1} cells; {moved}"))
         });
         hidden.chain(stretching).collect()
     }
 }
 
 impl Scene {
-    /// One object per node with a mesh, in node order.
+    /// One object per node with a mesh, in node order, as the first clip stretches them.
     pub fn objects(&self) -> Vec<Object> {
-        self.objects_and_hidden().0
+        self.motion_report(f64::INFINITY, self.first_clip()).objects
     }
 
-    /// [`Scene::objects`] and what of their motion cannot be shown with cells of `span` scene units.
-    pub fn motion_report(&self, span: f64) -> MotionReport {
-        let (objects, hidden) = self.objects_and_hidden();
-        let stretching = self.strays(&objects, span);
+    /// The clip that is played where none is asked for.
+    pub fn first_clip(&self) -> Option<usize> {
+        (!self.clips.is_empty()).then_some(0)
+    }
+
+    /// The objects as a clip moves them, or at rest, and what of that cannot be shown with cells of `span` scene
+    /// units. An object that strays from its mean stretch gets its largest: then no moment leaves holes.
+    pub fn motion_report(&self, span: f64, clip: Option<usize>) -> MotionReport {
+        let mut objects: Vec<Object> = self.mesh_nodes().collect();
+        let means = self.mean_stretches(&objects, clip);
+        for (object, mean) in objects.iter_mut().zip(&means) {
+            object.stretch = mean.unwrap_or(DMat3::IDENTITY);
+        }
+        let hidden = (0..objects.len()).filter(|&object| means[object].is_none()).collect();
+        let stretching = self.strays(&objects, span, clip);
+        self.enlarge(&mut objects, &stretching, clip);
         MotionReport { objects, hidden, stretching }
     }
 
     /// By index into [`Scene::objects`]; see [`MotionReport::stretching`].
     pub fn stretching_objects(&self, span: f64) -> Vec<(usize, f64)> {
-        self.strays(&self.objects(), span)
-    }
-
-    fn objects_and_hidden(&self) -> (Vec<Object>, Vec<usize>) {
-        let mut objects: Vec<Object> = self.mesh_nodes().collect();
-        let means = self.mean_stretches(&objects);
-        for (object, mean) in objects.iter_mut().zip(&means) {
-            object.stretch = mean.unwrap_or(DMat3::IDENTITY);
-        }
-        let hidden = (0..objects.len()).filter(|&object| means[object].is_none()).collect();
-        (objects, hidden)
+        self.motion_report(span, self.first_clip()).stretching
     }
 
     /// The objects before their stretch is known.
-    pub(super) fn mesh_nodes(&self) -> impl Iterator<Item = Object> {
+    pub fn mesh_nodes(&self) -> impl Iterator<Item = Object> {
         let moving = self.moving_nodes();
         let mesh_nodes = self.nodes.iter().enumerate().filter_map(|(index, node)| Some((index, node, node.mesh?)));
         mesh_nodes.map(move |(index, node, mesh)| Object {
@@ -119,6 +127,7 @@ impl Scene {
                 LocalTransform::Trs(rest) => match channel.property {
                     Property::Translation => channel.leaves(rest.translation.to_array()),
                     Property::Scale => channel.leaves(rest.scale.to_array()),
+                    Property::Visibility => false,
                     Property::Rotation => {
                         channel.leaves(rest.rotation.to_array()) && channel.leaves((-rest.rotation).to_array())
                     }

@@ -1,6 +1,6 @@
 //! Right-polar decomposition W = R·U: what turns (and mirrors) apart from what stretches.
 
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 
 /// R orthogonal (det −1 where W mirrors), U symmetric and positive definite.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +40,46 @@ pub fn right_polar(w: DMat3) -> Option<Polar> {
     Some(Polar { rotation: r, stretch: (stretch + stretch.transpose()) * 0.5 })
 }
 
+/// The same for matrices that flatten along one axis, with a stretch that does; `None` where no area is left.
+pub fn right_polar_or_flat(w: DMat3) -> Option<Polar> {
+    if let Some(polar) = right_polar(w) {
+        return Some(polar);
+    }
+    let (completed, flat) = completed(w)?;
+    let polar = right_polar(completed)?;
+    // What was added is the square of the length that W gives its null direction.
+    Some(Polar { stretch: polar.stretch - outer(flat, flat) * frobenius(&w), ..polar })
+}
+
+/// A matrix that flattens along one axis with that axis put back, as long as the matrix is large, and the direction
+/// that it flattens. `None` where no area is left.
+fn completed(w: DMat3) -> Option<(DMat3, DVec3)> {
+    let size = frobenius(&w);
+    let across = |m: DMat3| {
+        let normals = [m.x_axis.cross(m.y_axis), m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis)];
+        let longest = normals.into_iter().fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a });
+        (longest.length() > SINGULAR_SHARE * size * size).then(|| longest.normalize())
+    };
+    let (from, to) = (across(w.transpose())?, across(w)?);
+    (size.is_finite()).then(|| (w + outer(to, from) * size, from))
+}
+
+/// `w` with length 1 along what it flattens; as it is where it flattens nothing.
+pub fn unflattened(w: DMat3) -> DMat3 {
+    match (right_polar(w), completed(w)) {
+        (None, Some((completed, flat))) => {
+            let added = completed * flat;
+            completed - outer(added, flat) * (1.0 - 1.0 / added.length())
+        }
+        _ => w,
+    }
+}
+
+/// a · bᵀ.
+fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
 /// U where it is diagonal, as for every node that is not below a non-uniformly scaled one:
 /// then WᵀW is U², and no iteration is needed.
 fn stretch_along_axes(w: &DMat3) -> Option<DMat3> {
@@ -51,4 +91,29 @@ fn stretch_along_axes(w: &DMat3) -> Option<DMat3> {
 
 fn frobenius(matrix: &DMat3) -> f64 {
     matrix.to_cols_array().iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flattening_matrix_is_a_turn_after_a_flat_stretch() {
+        let turn = |angle: f64| DMat3::from_axis_angle(DVec3::new(1.0, -2.0, 0.5).normalize(), angle);
+        for scale in [DVec3::new(2.0, 0.0, 0.5), DVec3::new(0.0, 3.0, 3.0), DVec3::new(1e-3, 1e3, 0.0)] {
+            let axes = turn(0.4);
+            let stretch = axes * DMat3::from_diagonal(scale) * axes.transpose();
+            let w = turn(1.9) * stretch;
+            let polar = right_polar_or_flat(w).expect("an area is left");
+            let off = |a: DMat3, b: DMat3| frobenius(&(a - b)) / frobenius(&stretch);
+            assert!(off(polar.stretch, stretch) < 1e-12, "{} is not {stretch}", polar.stretch);
+            assert!(off(polar.rotation * polar.stretch, w) < 1e-12);
+            // Behind its completed stretch the completed matrix turns alone.
+            let turned = unflattened(w) * unflattened(polar.stretch).inverse();
+            assert!(frobenius(&(turned.transpose() * turned - DMat3::IDENTITY)) < 1e-9, "{turned}");
+        }
+        assert_eq!(right_polar_or_flat(DMat3::from_diagonal(DVec3::X)), None);
+        let regular = DMat3::from_diagonal(DVec3::new(1.0, 2.0, 3.0));
+        assert_eq!((unflattened(regular), right_polar_or_flat(regular)), (regular, right_polar(regular)));
+    }
 }

@@ -1,8 +1,8 @@
 //! The stretch U that is baked into an object's voxels, and how far the scene strays from it.
 //!
 //! In: posed matrices W of nodes, or of joints with their inverse bind. Out: the mean of U over the
-//! keys of all clips (over the joints too for a skin, weighted by use), and the distance in cells
-//! by which U takes vertices away from that mean.
+//! keys of a clip (over the joints too for a skin, weighted by use), the distance in cells by which U
+//! takes vertices away from that mean, and the largest U.
 
 use glam::{DMat3, DMat4, DVec3};
 
@@ -10,7 +10,7 @@ use super::{
     Mesh, Motion, Object, Pose, Scene,
     bounds::{Aabb, joint_boxes},
     motion::LAST_BITS,
-    polar::right_polar,
+    polar::{right_polar_or_flat, unflattened},
 };
 
 /// Poses a clip is looked at, at most.
@@ -23,14 +23,14 @@ impl Scene {
     /// Objects of which some vertex is at some time half a cell or more away from where the baked
     /// mean would have it: index and the largest distance in cells. A shift common to all vertices
     /// of an object or joint does not count.
-    pub(super) fn strays(&self, objects: &[Object], span: f64) -> Vec<(usize, f64)> {
+    pub(super) fn strays(&self, objects: &[Object], span: f64, clip: Option<usize>) -> Vec<(usize, f64)> {
         let moving = objects.iter().enumerate().filter(|(_, object)| object.motion != Motion::Static);
         let mut probes: Vec<(usize, Probe)> =
             moving.map(|(index, object)| (index, Probe::new(self, object, STRETCHING_CELLS * span))).collect();
         if probes.is_empty() {
             return Vec::new();
         }
-        self.for_each_sample(|pose| {
+        self.for_each_sample(clip, |pose| {
             for (_, probe) in &mut probes {
                 probe.look_at(self, pose);
             }
@@ -40,7 +40,7 @@ impl Scene {
     }
 
     /// By object; `None` where no moment has a regular matrix.
-    pub(super) fn mean_stretches(&self, objects: &[Object]) -> Vec<Option<DMat3>> {
+    pub(super) fn mean_stretches(&self, objects: &[Object], clip: Option<usize>) -> Vec<Option<DMat3>> {
         let mut nodes = vec![Mean::EMPTY; objects.len()];
         let mut skins: Vec<(Mean, Vec<f64>)> =
             (0..self.skins.len()).map(|skin| (Mean::EMPTY, self.joint_uses(skin, objects))).collect();
@@ -48,7 +48,7 @@ impl Scene {
         for (mean, object) in nodes.iter_mut().zip(objects).filter(|(_, object)| object.motion == Motion::Static) {
             mean.add(&rest.world_from_node[object.node], 1.0);
         }
-        self.for_each_sample(|pose| {
+        self.for_each_sample(clip, |pose| {
             for (mean, object) in nodes.iter_mut().zip(objects).filter(|(_, object)| object.motion == Motion::Rigid) {
                 mean.add(&pose.world_from_node[object.node], 1.0);
             }
@@ -79,14 +79,33 @@ impl Scene {
         uses
     }
 
-    /// The rest pose of a scene without clips; else each clip at its keys and half-way between.
-    fn for_each_sample(&self, mut look: impl FnMut(&Pose)) {
-        if self.clips.is_empty() {
-            look(&self.pose(None, 0.0));
+    /// Gives rigid objects that stray from their mean stretch the largest.
+    pub(super) fn enlarge(&self, objects: &mut [Object], straying: &[(usize, f64)], clip: Option<usize>) {
+        let rigid =
+            straying.iter().map(|&(object, _)| object).filter(|&object| objects[object].motion == Motion::Rigid);
+        let mut largest: Vec<(usize, Largest)> =
+            rigid.map(|object| (object, Largest::beside(objects[object].stretch))).collect();
+        if largest.is_empty() {
+            return;
         }
-        for (index, clip) in self.clips.iter().enumerate() {
-            for time_secs in clip.sample_times(MAX_STRETCH_SAMPLES) {
-                look(&self.pose(Some(index), time_secs));
+        self.for_each_sample(clip, |pose| {
+            for (object, largest) in &mut largest {
+                largest.add(&pose.world_from_node[objects[*object].node]);
+            }
+        });
+        for (object, largest) in largest {
+            objects[object].stretch = largest.get();
+        }
+    }
+
+    /// The rest pose without a clip; else a clip at its keys and half-way between.
+    fn for_each_sample(&self, clip: Option<usize>, mut look: impl FnMut(&Pose)) {
+        match clip.and_then(|clip| Some((clip, self.clips.get(clip)?))) {
+            None => look(&self.pose(None, 0.0)),
+            Some((index, clip)) => {
+                let times = clip.sample_times(MAX_STRETCH_SAMPLES);
+                let moments = if times.is_empty() { vec![0.0] } else { times };
+                moments.into_iter().for_each(|time_secs| look(&self.pose(Some(index), time_secs)));
             }
         }
     }
@@ -103,7 +122,7 @@ impl Mean {
     const EMPTY: Self = Self { sum: DMat3::ZERO, weight: 0.0 };
 
     fn add(&mut self, world_from_mesh: &DMat4, weight: f64) {
-        if let Some(polar) = right_polar(DMat3::from_mat4(*world_from_mesh)) {
+        if let Some(polar) = right_polar_or_flat(DMat3::from_mat4(*world_from_mesh)) {
             self.sum += polar.stretch * weight;
             self.weight += weight;
         }
@@ -112,6 +131,44 @@ impl Mean {
     fn get(&self) -> Option<DMat3> {
         (self.weight > 0.0).then(|| without_last_bits(self.sum * (1.0 / self.weight)))
     }
+}
+
+/// A stretch that no other of an object exceeds along any direction.
+struct Largest {
+    mean: DMat3,
+    inverse_mean: DMat3,
+    /// Of the lengths along the axes, where all stretches have those alone.
+    axes: Option<DVec3>,
+    /// What any other is at most, in sizes of the mean.
+    factor: f64,
+}
+
+impl Largest {
+    fn beside(mean: DMat3) -> Self {
+        Self { mean, inverse_mean: unflattened(mean).inverse(), axes: Some(DVec3::ZERO), factor: 1.0 }
+    }
+
+    fn add(&mut self, world_from_mesh: &DMat4) {
+        let Some(polar) = right_polar_or_flat(DMat3::from_mat4(*world_from_mesh)) else { return };
+        let diagonal = polar.stretch.diagonal();
+        let is_along_axes = polar.stretch == DMat3::from_diagonal(diagonal);
+        self.axes = self.axes.filter(|_| is_along_axes).map(|axes| axes.max(diagonal));
+        self.factor = self.factor.max(largest_stretch(&(polar.stretch * self.inverse_mean)));
+    }
+
+    fn get(&self) -> DMat3 {
+        without_last_bits(self.axes.map_or(self.mean * self.factor, DMat3::from_diagonal))
+    }
+}
+
+/// By how much a matrix lengthens what it lengthens most: the root of the largest eigenvalue of MᵀM, by iteration.
+fn largest_stretch(matrix: &DMat3) -> f64 {
+    const STEPS: usize = 32;
+    let square = matrix.transpose() * *matrix;
+    let columns = [square.x_axis, square.y_axis, square.z_axis];
+    let longest = columns.into_iter().fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a });
+    let direction = (0..STEPS).fold(longest, |direction, _| (square * direction).normalize_or_zero());
+    (*matrix * direction).length()
 }
 
 /// Rounds what an f32 file cannot mean: shear, and differences between axes or from 1, in the last
@@ -165,7 +222,7 @@ impl<'a> Probe<'a> {
     }
 
     fn stray(&self, matrix: &DMat4, bounds: &Option<Aabb>) -> Stray {
-        let (Some(bounds), Some(polar)) = (bounds, right_polar(DMat3::from_mat4(*matrix))) else {
+        let (Some(bounds), Some(polar)) = (bounds, right_polar_or_flat(DMat3::from_mat4(*matrix))) else {
             return Stray { difference: DMat3::ZERO, center: DVec3::ZERO, bound: 0.0 };
         };
         let (difference, center) = (polar.stretch - self.object.stretch, bounds.center());

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Discretization {
     /// N, cells along an axis: a power of two, 64 to 1024.
     pub grid: u32,
-    /// δ in scene units; `None`: the scene's posed bounds over all its animation decide.
+    /// δ in scene units; `None`: as large as what the grid encloses asks for ([`super::Fit`]).
     pub span: Option<f64>,
     pub mode: VoxelizationMode,
     pub filter: Filter,

@@ -3,6 +3,7 @@
 
 mod cone_tracing;
 mod discretization;
+mod fit;
 mod format;
 mod format_1;
 mod light_edit;
@@ -18,6 +19,7 @@ mod visibility;
 
 pub use cone_tracing::ConeTracing;
 pub use discretization::{Discretization, Filter, VoxelAnchor, VoxelizationMode};
+pub use fit::{Fit, FitTo};
 pub use format::FORMAT;
 pub use light_names::{LightChange, LightError};
 pub use lighting::Lighting;

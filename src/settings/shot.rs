@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
+use super::fit::Fit;
 use super::motion::MotionSettings;
 use super::visibility::Visibility;
 use crate::scene::camera::FOV_Y_DEGREES;
@@ -14,6 +15,8 @@ use crate::scene::{OrbitCamera, SceneIdentity};
 pub struct ShotSettings {
     pub motion: MotionSettings,
     pub visibility: Visibility,
+    /// What the grid encloses.
+    pub fit: Fit,
     /// `None`: frames everything.
     pub camera: Option<OrbitCamera>,
     /// Width and height of the picture. What is saved tells its own; `None`: whoever draws decides, the window by
@@ -29,6 +32,7 @@ impl ShotSettings {
 
     pub(super) fn check(&self) -> Result<(), String> {
         self.motion.check()?;
+        self.fit.check()?;
         if let Some([width, height]) = self.size_px.filter(|sides| !sides.iter().all(|px| Self::SIDES_PX.contains(px)))
         {
             let (least, most) = (Self::SIDES_PX.start(), Self::SIDES_PX.end());

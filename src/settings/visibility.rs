@@ -116,6 +116,7 @@ pub(super) mod tests {
             skin: None,
             camera: None,
             light: None,
+            is_visible: true,
         };
         let nodes = vec![
             node("house", None, Some(0)),

@@ -184,6 +184,7 @@ fn camera_scene(trs: Trs, projection: Projection) -> Scene {
         skin: None,
         camera: Some(0),
         light: None,
+        is_visible: true,
     });
     scene
 }

@@ -168,7 +168,7 @@ fn exact_voxels_and_accuracy_are_of_what_is_shown() {
     let (both, alone) = (prepared(scene()), prepared(without(&[1])));
     let motion = MotionSettings { time_secs: 0.37, ..MotionSettings::default() };
     let none = Default::default();
-    let hidden = both.hidden(&hiding(&[1]).shot.visibility).expect("known nodes");
+    let hidden = both.hidden(&hiding(&[1]).shot.visibility, &both.pose(&motion).expect("poses")).expect("known nodes");
     let exact = both.exact(&motion, &hidden, &Progress::default()).expect("an exact set");
     let cells = |exact: ExactVoxels| (exact.bits, exact.count, exact.warnings);
     let of_alone = alone.exact(&motion, &none, &Progress::default()).expect("an exact set");

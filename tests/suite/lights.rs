@@ -14,7 +14,7 @@ use octolume::settings::Lighting;
 use octolume::settings::lighting::{AddedLight, LightEdit, SunShines};
 
 fn node(name: &str, parent: Option<usize>, light: Option<usize>, local: LocalTransform) -> Node {
-    Node { name: name.to_owned(), parent, local, mesh: None, skin: None, camera: None, light }
+    Node { name: name.to_owned(), parent, local, mesh: None, skin: None, camera: None, light, is_visible: true }
 }
 
 fn at(x: f64, y: f64, z: f64) -> LocalTransform {

@@ -29,7 +29,16 @@ pub fn camera() -> OrbitCamera {
 
 pub fn node(name: &str, translation: DVec3) -> Node {
     let local = LocalTransform::Trs(Trs { translation, ..Trs::default() });
-    Node { name: name.to_owned(), parent: None, local, mesh: None, skin: None, camera: None, light: None }
+    Node {
+        name: name.to_owned(),
+        parent: None,
+        local,
+        mesh: None,
+        skin: None,
+        camera: None,
+        light: None,
+        is_visible: true,
+    }
 }
 
 /// A square of side 2 around the origin in the xy plane.

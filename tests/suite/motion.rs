@@ -139,15 +139,18 @@ fn mirrored_objects_keep_a_positive_stretch() {
 
 #[test]
 fn singular_objects_are_hidden_and_named() {
-    for hidden in [scaled(0.0, 0.0, 0.0), scaled(1.0, 0.0, 1.0), scaled(f64::NAN, 1.0, 1.0)] {
+    for hidden in [scaled(0.0, 0.0, 0.0), scaled(1.0, 0.0, 0.0), scaled(f64::NAN, 1.0, 1.0)] {
         let scene = cube_scene(hidden);
-        assert_eq!(scene.motion_report(1.0).hidden, [0]);
+        assert_eq!(scene.motion_report(1.0, scene.first_clip()).hidden, [0]);
         assert_eq!(only_object(&scene).stretch, DMat3::IDENTITY);
         assert_eq!(
-            scene.motion_report(1.0).warnings(),
-            ["object \"node\" is hidden: its matrix is singular or not finite at all times"]
+            scene.motion_report(1.0, scene.first_clip()).warnings(),
+            ["object \"node\" is hidden: its matrix leaves no area, or is not finite, at all times"]
         );
     }
+    let flat = cube_scene(scaled(2.0, 0.0, 1.0));
+    assert!(flat.motion_report(1.0, None).hidden.is_empty());
+    assert_eq!(only_object(&flat).stretch, DMat3::from_diagonal(DVec3::new(2.0, 0.0, 1.0)));
     // Popping up from nothing: what counts is when it is there.
     let mut scene = cube_scene(scaled(0.0, 0.0, 0.0));
     scene.clips.push(clip(vec![channel(
@@ -156,7 +159,7 @@ fn singular_objects_are_hidden_and_named() {
         &[0.0, 1.0],
         &[0.0, 0.0, 0.0, 3.0, 3.0, 3.0],
     )]));
-    assert!(scene.motion_report(1.0).hidden.is_empty());
+    assert!(scene.motion_report(1.0, scene.first_clip()).hidden.is_empty());
     assert_eq!(only_object(&scene).stretch, DMat3::from_diagonal(DVec3::splat(3.0)));
 }
 
@@ -184,9 +187,13 @@ fn half_a_cell_of_stretch_is_named() {
     assert_eq!(scene.stretching_objects(0.25), [(0, 2.0)]);
     assert_eq!(scene.stretching_objects(1.0), [(0, 0.5)], "half a cell counts");
     assert!(scene.stretching_objects(1.001).is_empty());
+    let baked = |span: f64| scene.motion_report(span, scene.first_clip()).objects[0].stretch;
+    assert_eq!(baked(1.001), DMat3::from_diagonal(DVec3::new(1.5, 1.0, 1.0)), "the mean is near enough");
+    assert_eq!(baked(0.25), DMat3::from_diagonal(DVec3::new(2.0, 1.0, 1.0)), "the largest leaves no holes");
+    assert_eq!(scene.motion_report(0.25, None).objects[0].stretch, DMat3::IDENTITY, "another clip does not count");
     assert_eq!(
-        scene.motion_report(0.25).warnings(),
-        ["object \"node\" stretches by up to 2.0 cells; it is moved with its mean stretch"]
+        scene.motion_report(0.25, scene.first_clip()).warnings(),
+        ["object \"node\" stretches by up to 2.0 cells; it has the voxels of its largest stretch at all times"]
     );
 }
 

@@ -18,6 +18,7 @@ pub fn node(parent: Option<usize>, trs: Trs) -> Node {
         skin: None,
         camera: None,
         light: None,
+        is_visible: true,
     }
 }
 

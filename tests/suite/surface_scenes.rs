@@ -157,7 +157,7 @@ fn direct_light_of_real_scenes_is_the_path_tracers() {
 /// Green of every pixel, nits.
 fn drawn_light(prepared: &Prepared, settings: &Settings) -> Vec<f64> {
     let shot = shot(prepared, settings);
-    let shown = settings.shot.visibility.shown_nodes(&prepared.scene).expect("all");
+    let shown = prepared.shown_nodes(&settings.shot.visibility, &shot.pose).expect("all");
     let emits = prepared.emits(&settings.method.lighting);
     let lights = posed_lights(&prepared.scene, &shot.pose, &settings.method.lighting, &shown, emits);
     let found = shot.lit(&shot.drawn(), &lights, &Hiding::Map(1024));

@@ -185,7 +185,7 @@ fn every_voxel_of_a_long_object_goes_where_the_reference_puts_it() {
             let map = |voxel: usize| match rig.joints.get(voxel) {
                 None => (maps[0], 5.0),
                 // As for joints of small objects: quotient, product, three sums, then as rigid.
-                Some(joints) => (skinned_ref::blended(joints, &maps), 16.0),
+                Some(joints) => (skinned_ref::blended(joints, &maps).expect("joints have a size"), 16.0),
             };
             if !frame.resident[number] {
                 let is_inside = |voxel: usize| {

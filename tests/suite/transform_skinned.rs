@@ -27,7 +27,7 @@ fn random_skinned_motion_agrees_with_the_reference_with_any_number_of_joints() {
         let part = skinned_part(&mut rng, 3000, &maps);
         let found = World::moved(gpu(), &[still, part.clone()], DEPTH, SegmentOrder::default()).fragments(gpu());
         for (voxel, found) in found[300..].iter().enumerate() {
-            let blended = skinned_ref::blended(&part.joints[voxel], &maps);
+            let blended = skinned_ref::blended(&part.joints[voxel], &maps).expect("joints have a size");
             // Weight (4: a quotient is within 2.5 ulp), product, three sums of joints; then as rigid.
             check_moved(&part, &blended, voxel, found, 16.0).unwrap_or_else(|difference| panic!("{difference}"));
         }

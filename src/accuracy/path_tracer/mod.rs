@@ -96,10 +96,10 @@ pub struct TracedScene<'a> {
 impl<'a> TracedScene<'a> {
     /// Objects at no finite place are left out: [`Self::warnings`].
     pub fn new(prepared: &'a Prepared, settings: &Settings, options: Options) -> Result<Self, LightsError> {
-        let hidden = prepared.hidden(&settings.shot.visibility)?;
-        let triangles = PosedTriangles::new(prepared, &settings.shot.motion, &hidden)?;
         let pose = prepared.pose(&settings.shot.motion)?;
-        let shown = settings.shot.visibility.shown_nodes(&prepared.scene)?;
+        let hidden = prepared.hidden(&settings.shot.visibility, &pose)?;
+        let triangles = PosedTriangles::new(prepared, &settings.shot.motion, &hidden)?;
+        let shown = prepared.shown_nodes(&settings.shot.visibility, &pose)?;
         let lighting = &settings.method.lighting;
         let readers = readers(prepared, &triangles, &pose, (lighting.emission, options.reflection));
         let lights = posed_lights(&prepared.scene, &pose, lighting, &shown, prepared.emits(lighting));

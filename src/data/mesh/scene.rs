@@ -15,6 +15,9 @@ use crate::settings::Hidden;
 /// Vertices of a batch, unless one primitive has more: 24 MiB, uploaded in one go.
 const BATCH_VERTICES: usize = 1 << 19;
 
+/// Of the work that makes smaller levels: a slice that is much shorter costs more than it does.
+const LEAST_SLICE: Duration = Duration::from_millis(2);
+
 /// What draws of some primitives read.
 #[derive(Debug)]
 pub(super) struct Batch {
@@ -125,7 +128,7 @@ impl MeshScene {
             self.levels_job = Some(Job::new(std::mem::take(&mut self.levels)));
         }
         let Some(job) = &mut self.levels_job else { return Ok(true) };
-        match job.advance(gpu, budget) {
+        match job.advance(gpu, budget.max(LEAST_SLICE)) {
             Ok(JobState::Running { .. }) => Ok(false),
             Ok(JobState::Done) => {
                 self.levels_job = None;

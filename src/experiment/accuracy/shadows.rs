@@ -151,11 +151,11 @@ fn cast(
     let Some((_, settings)) = shining.first() else { return Ok((Vec::new(), Vec::new())) };
     progress.add_total(1 + shining.len() as u64);
     let leaves = LeafPlaces::new(voxels, &prepared.grid);
-    let hidden = prepared.hidden(&settings.shot.visibility)?;
+    let pose = prepared.pose(&settings.shot.motion)?;
+    let hidden = prepared.hidden(&settings.shot.visibility, &pose)?;
     let triangles = PosedTriangles::new(prepared, &settings.shot.motion, &hidden)?;
     let points = spread(&triangles, POINTS);
-    let pose = prepared.pose(&settings.shot.motion)?;
-    let shown = settings.shot.visibility.shown_nodes(&prepared.scene)?;
+    let shown = prepared.shown_nodes(&settings.shot.visibility, &pose)?;
     let mut lights = Vec::new();
     for (name, settings) in shining {
         // Where nobody waits any more, what is missing is missed by nobody.

@@ -100,7 +100,7 @@ async fn compare_filters(lab: &mut Lab, settings: &Settings, share: Share) -> Re
 /// Voxelizes the posed mesh exactly.
 async fn take_exact(lab: &mut Lab, settings: &Settings, share: Share) -> Result<(), ExperimentError> {
     let (prepared, motion) = (Arc::clone(&lab.prepared), settings.shot.motion.clone());
-    let hidden = prepared.hidden(&settings.shot.visibility)?;
+    let hidden = prepared.hidden(&settings.shot.visibility, &prepared.pose(&settings.shot.motion)?)?;
     let exact =
         lab.work((share, "voxelizing the posed mesh"), move |progress| prepared.exact(&motion, &hidden, progress));
     let exact = exact.await??;

@@ -8,10 +8,13 @@ use gltf::json::{
     validation::Checked,
 };
 
+use serde_json::Value;
+
 use super::{
     error::Defect,
     file_object::{FileObject, label},
     keys::{self, KeyRepairs},
+    nodes::VISIBILITY,
     source::Source,
 };
 use crate::scene::{Channel, Clip, Interpolation, LocalTransform, Node, Property, Warning};
@@ -52,10 +55,27 @@ pub(super) fn load(
         };
         let object = name.member(format_args!("{} of {node_label}", property.name()));
         let loaded = match taken.insert((node, property)) {
-            true => load_channel(source, animation, channel, (node, property), nodes),
+            true if matches!(nodes[node].local, LocalTransform::Matrix(_)) => {
+                Err("its node has a matrix, which cannot be animated".to_owned())
+            }
+            true => load_channel(source, animation, channel.sampler.value(), (node, property)),
             false => Err("it animates what another channel of the clip animates".to_owned()),
         };
         match loaded {
+            Ok((channel, repairs)) => {
+                warnings.extend(repairs.told().map(|told| object.warning(told).at(node)));
+                channels.push(channel);
+            }
+            Err(cause) => warnings.push(object.warning(format!("{cause}; it is left out")).at(node)),
+        }
+    }
+    for (sampler, node) in visibility(animation) {
+        let Some((&node, file_node)) = rank.get(node).zip(Some(node)) else {
+            warnings.push(name.warning(format!("it animates the visibility of node {node}, which does not exist")));
+            continue;
+        };
+        let object = name.member(format_args!("visibility of {}", label("node", file_node, Some(&nodes[node].name))));
+        match load_channel(source, animation, sampler, (node, Property::Visibility)) {
             Ok((channel, repairs)) => {
                 warnings.extend(repairs.told().map(|told| object.warning(told).at(node)));
                 channels.push(channel);
@@ -75,18 +95,22 @@ pub(super) fn load(
     })
 }
 
+/// Sampler and node of each channel that shows and hides, as [`super::json`] sets them apart.
+fn visibility(animation: &json::Animation) -> Vec<(usize, usize)> {
+    let apart = animation.extensions.as_ref().and_then(|all| all.others.get(VISIBILITY)?.get("channels")?.as_array());
+    let number = |channel: &Value, pointer: &str| Some(channel.pointer(pointer)?.as_u64()? as usize);
+    let channels = apart.into_iter().flatten();
+    channels.filter_map(|channel| Some((number(channel, "/sampler")?, number(channel, "/target/node")?))).collect()
+}
+
 /// Errors are causes.
 fn load_channel(
     source: &Source,
     animation: &json::Animation,
-    channel: &json::animation::Channel,
+    sampler: usize,
     (node, property): (usize, Property),
-    nodes: &[Node],
 ) -> Result<(Channel, KeyRepairs), String> {
-    if let LocalTransform::Matrix(_) = nodes[node].local {
-        return Err("its node has a matrix, which cannot be animated".to_owned());
-    }
-    let sampler = animation.samplers.get(channel.sampler.value()).ok_or("it names a sampler that does not exist")?;
+    let sampler = animation.samplers.get(sampler).ok_or("it names a sampler that does not exist")?;
     let times = &source.root.accessors[sampler.input.value()];
     if times.buffer_view.is_none() && times.sparse.is_none() && times.count.0 > 1 {
         return Err("its key times have no data".to_owned());
@@ -119,6 +143,7 @@ fn read_channel(
     let times_secs: Vec<f64> = times.into_iter().map(|[time]| f64::from(time)).collect();
     let values: Vec<f64> = match property {
         Property::Rotation => output.floats::<4>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
+        Property::Visibility => output.floats::<1>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
         _ => output.floats::<3>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
     };
     Ok(Channel { node, property, interpolation, times_secs, values })

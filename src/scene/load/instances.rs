@@ -46,6 +46,7 @@ pub(super) fn expand(
             skin: None,
             camera: None,
             light: None,
+            is_visible: true,
         }));
     }
     Ok(())

@@ -40,6 +40,7 @@ mod uri;
 mod usage_check;
 mod weights;
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use gltf::json::Root;
@@ -176,6 +177,20 @@ fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<Warning>) 
     Ok(shown)
 }
 
+/// Tells apart what has one name: the second is called `name (2)`.
+#[derive(Default)]
+struct UniqueNames(HashSet<String>);
+
+impl UniqueNames {
+    fn of(&mut self, name: String) -> String {
+        let numbered = (2..).map(|number| format!("{name} ({number})"));
+        let unique = std::iter::once(name.clone()).chain(numbered).find(|name| !self.0.contains(name));
+        let unique = unique.unwrap_or(name);
+        self.0.insert(unique.clone());
+        unique
+    }
+}
+
 fn read_clips(
     source: &Source,
     hierarchy: &Hierarchy,
@@ -184,9 +199,11 @@ fn read_clips(
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Clip>, Defect> {
     let animations = &source.root.animations;
+    let mut names = UniqueNames::default();
     progress.add_total(animations.len() as u64);
     let clips = animations.iter().enumerate().map(|(index, animation)| {
-        let clip = animation::load(source, index, animation, &hierarchy.rank, nodes, warnings)?;
+        let mut clip = animation::load(source, index, animation, &hierarchy.rank, nodes, warnings)?;
+        clip.name = names.of(clip.name);
         progress.advance(1)?;
         Ok(clip)
     });

@@ -91,6 +91,7 @@ impl Hierarchy {
                     mesh: meshes[index].filter(|_| shown),
                     skin: node.skin.filter(|_| shown && node.mesh.is_some()).map(|skin| skin.value()),
                     camera: node.camera.filter(|_| shown).and_then(|camera| cameras[camera.value()]),
+                    is_visible: is_visible(node),
                     light: light_of(node).filter(|_| shown).and_then(|light| lights.get(light).copied().flatten()),
                 })
             })
@@ -134,6 +135,9 @@ fn local_transform(
     }
 }
 
+/// Extension of nodes, and where an animation keeps the channels that change it.
+pub(super) const VISIBILITY: &str = "KHR_node_visibility";
+
 /// Quaternions of normalised bytes are this far from unit length.
 pub(super) const UNIT_TOLERANCE: f64 = 0.01;
 
@@ -168,6 +172,12 @@ pub(super) fn affine(columns: &[f64; 16], object: &dyn Fn() -> FileObject, warni
         }));
     }
     matrix
+}
+
+/// KHR_node_visibility.
+fn is_visible(node: &json::Node) -> bool {
+    let declared = node.extensions.as_ref().and_then(|extensions| extensions.others.get(VISIBILITY)?.get("visible"));
+    declared.and_then(serde_json::Value::as_bool).unwrap_or(true)
 }
 
 pub(super) fn light_of(node: &json::Node) -> Option<usize> {

@@ -226,7 +226,7 @@ impl Walker {
 }
 
 fn exact(prepared: &Prepared, settings: &Settings) -> Option<Arc<ExactVoxels>> {
-    let hidden = prepared.hidden(&settings.shot.visibility).ok()?;
+    let hidden = prepared.hidden(&settings.shot.visibility, &prepared.pose(&settings.shot.motion).ok()?).ok()?;
     Some(Arc::new(prepared.exact(&settings.shot.motion, &hidden, &Progress::default()).ok()?))
 }
 

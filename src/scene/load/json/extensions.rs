@@ -48,7 +48,7 @@ const fn noted(name: &'static str, note: &'static str) -> Known {
 
 const COMPRESSED: &[Carrier] = &[Carrier::Buffer, Carrier::BufferView];
 
-const KNOWN: [Known; 24] = [
+const KNOWN: [Known; 25] = [
     read("EXT_mesh_gpu_instancing", &[Carrier::Node]),
     read("EXT_meshopt_compression", COMPRESSED),
     read("EXT_texture_webp", &[Carrier::Texture]),
@@ -60,6 +60,7 @@ const KNOWN: [Known; 24] = [
     read("KHR_materials_unlit", &[Carrier::Material]),
     read("KHR_mesh_quantization", &[]),
     read("KHR_meshopt_compression", COMPRESSED),
+    read("KHR_node_visibility", &[Carrier::Node]),
     read("KHR_texture_basisu", &[Carrier::Texture]),
     read("KHR_texture_transform", &[Carrier::TextureSlot]),
     Known {

@@ -1,13 +1,16 @@
 //! KHR_animation_pointer for what is animated here: a pointer to a node's transform becomes an
-//! ordinary target; a channel that points at anything else is left out and named.
+//! ordinary target; one to its visibility, for which the typed document has no target, moves with its
+//! channel into an extension of the animation; a channel that points at anything else is left out and named.
 
 use serde_json::{Value, json};
 
 use super::few::Few;
 use super::tree::{self, Keep};
 use crate::scene::Warning;
+use crate::scene::load::nodes::VISIBILITY;
 
 const EXTENSION: &str = "KHR_animation_pointer";
+const VISIBLE: &str = "visible";
 const ANIMATED: [&str; 4] = ["translation", "rotation", "scale", "weights"];
 
 pub fn resolve(tree: &mut Value, warnings: &mut Vec<Warning>) {
@@ -32,6 +35,10 @@ pub fn resolve(tree: &mut Value, warnings: &mut Vec<Warning>) {
         }
         Keep::Yes
     });
+    tree::retain(tree, "animations/*", &mut |_, animation| {
+        set_apart(animation);
+        Keep::Yes
+    });
     let mut few = Few::default();
     for (path, cause) in lost {
         few.add(|| tree::object_at(tree, &path).warning(format!("it {cause}; that is left out")));
@@ -39,10 +46,26 @@ pub fn resolve(tree: &mut Value, warnings: &mut Vec<Warning>) {
     few.append_to(warnings);
 }
 
+/// Channels of visibility, out of the list of the others.
+fn set_apart(animation: &mut Value) {
+    let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) else { return };
+    let is_visibility = |channel: &Value| channel.pointer("/target/path").is_some_and(|path| path == VISIBLE);
+    let (apart, rest): (Vec<Value>, Vec<Value>) = std::mem::take(channels).into_iter().partition(is_visibility);
+    *channels = rest;
+    if !apart.is_empty() {
+        animation["extensions"][VISIBILITY] = json!({ "channels": apart });
+    }
+}
+
 /// `/nodes/3/rotation` → (3, "rotation").
 fn node_property(pointer: &str) -> Option<(u64, &str)> {
     let (node, property) = pointer.strip_prefix("/nodes/")?.split_once('/')?;
-    Some((node.parse().ok()?, property)).filter(|(_, property)| ANIMATED.contains(property))
+    let node = node.parse().ok()?;
+    let extension = property.strip_prefix("extensions/").and_then(|path| path.split_once('/'));
+    if extension == Some((VISIBILITY, VISIBLE)) {
+        return Some((node, VISIBLE));
+    }
+    Some((node, property)).filter(|(_, property)| ANIMATED.contains(property))
 }
 
 #[cfg(test)]
@@ -54,17 +77,19 @@ mod tests {
         let target =
             |pointer: &str| json!({"target": {"path": "pointer", "extensions": {EXTENSION: {"pointer": pointer}}}});
         let mut tree = json!({"animations": [{"channels": [
-            target("/nodes/2/rotation"), target("/materials/0/alphaCutoff"), {"target": {"path": "pointer"}}
+            target("/nodes/2/rotation"), target("/nodes/4/extensions/KHR_node_visibility/visible"), target("/materials/0/alphaCutoff"), {"target": {"path": "pointer"}}
         ]}]});
         let mut warnings = Vec::new();
         resolve(&mut tree, &mut warnings);
         assert_eq!(tree["animations"][0]["channels"][0]["target"], json!({"node": 2, "path": "rotation"}));
         assert_eq!(tree["animations"][0]["channels"][1], json!({}));
+        let apart = &tree["animations"][0]["extensions"][VISIBILITY]["channels"];
+        assert_eq!(*apart, json!([{ "target": { "node": 4, "path": "visible" } }]));
         assert_eq!(warnings.len(), 2);
         assert!(
             warnings[0]
                 .sentence
-                .starts_with("animation 0, channels[1].target: it animates \"/materials/0/alphaCutoff\"")
+                .starts_with("animation 0, channels[2].target: it animates \"/materials/0/alphaCutoff\"")
         );
     }
 }

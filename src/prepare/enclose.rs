@@ -1,0 +1,111 @@
+//! The box that the grid encloses.
+
+use super::{Preparation, PrepareError};
+use crate::scene::bounds::{Aabb, union};
+use crate::scene::{Object, Scene, Warning};
+use crate::settings::FitTo;
+
+/// Something lies apart if leaving it out makes the rest so many times smaller …
+const APART: f64 = 8.0;
+/// … while it is this many times smaller than the rest.
+const SMALLER: f64 = 4.0;
+/// More of them are a scene of small things.
+const MOST_APART: usize = 8;
+
+/// `None` where there is nothing to see; and what small things far away it leaves out, a warning each. `clip`: which
+/// one the preparation's motion plays.
+pub fn enclosed(
+    scene: &Scene,
+    preparation: &Preparation,
+    clip: Option<usize>,
+) -> Result<(Option<Aabb>, Vec<Warning>), PrepareError> {
+    let time_secs = preparation.motion.time_secs;
+    let objects: Vec<Object> = scene.mesh_nodes().collect();
+    let boxes = match preparation.fit.to {
+        FitTo::Box { min, max } => return Ok((Some(Aabb { min, max }), Vec::new())),
+        FitTo::Scene => return Ok((scene.bounds_over_time(), Vec::new())),
+        FitTo::Clip => scene.boxes_over_clip(&objects, clip),
+        FitTo::Pose => scene.boxes_at(&objects, &scene.pose(clip, time_secs)),
+    };
+    let counted = preparation.fit.counted.shown_nodes(scene)?;
+    let mut boxes: Vec<(usize, Aabb)> = (0..objects.len())
+        .filter(|&object| counted[objects[object].node])
+        .filter_map(|object| Some((object, boxes[object]?)))
+        .collect();
+    let apart = if preparation.fit.counted.only.is_empty() { take_apart(&mut boxes) } else { Vec::new() };
+    let warnings = apart.into_iter().map(|(object, times)| {
+        let object = &objects[object];
+        let sentence = format!(
+            "object \"{}\" lies {times:.0} times the size of the rest away; the grid does not enclose it unless it is fit to the scene",
+            object.name
+        );
+        Warning::new(sentence).at(object.node)
+    });
+    let bounds = boxes.iter().fold(None, |all, (_, bounds)| union(all, Some(*bounds)));
+    Ok((bounds, warnings.collect()))
+}
+
+/// Takes out what is small and far from the rest; returns how many times the size of the rest it makes of the whole.
+fn take_apart(boxes: &mut Vec<(usize, Aabb)>) -> Vec<(usize, f64)> {
+    let extent = |bounds: &Aabb| bounds.size().max_element();
+    let mut apart = Vec::new();
+    let mut rest = boxes.clone();
+    while rest.len() > 1 && apart.len() <= MOST_APART {
+        let without = unions_without(&rest);
+        let whole = without[0].union(&rest[0].1);
+        let lies_apart = |place: &usize| {
+            let left = extent(&without[*place]);
+            extent(&whole) >= APART * left && SMALLER * extent(&rest[*place].1) <= left
+        };
+        let smallest = |a: &usize, b: &usize| extent(&rest[*a].1).total_cmp(&extent(&rest[*b].1));
+        let Some(place) = (0..rest.len()).filter(lies_apart).min_by(smallest) else { break };
+        apart.push((rest[place].0, extent(&whole) / extent(&without[place])));
+        rest.remove(place);
+    }
+    if apart.len() > MOST_APART {
+        return Vec::new();
+    }
+    *boxes = rest;
+    apart
+}
+
+/// Of each box: the box around all others. There are at least two.
+fn unions_without(boxes: &[(usize, Aabb)]) -> Vec<Aabb> {
+    let around = |all: &mut Option<Aabb>, bounds: &Aabb| {
+        let before = *all;
+        *all = union(*all, Some(*bounds));
+        Some(before)
+    };
+    let before: Vec<Option<Aabb>> = boxes.iter().map(|(_, b)| b).scan(None, around).collect();
+    let mut after: Vec<Option<Aabb>> = boxes.iter().rev().map(|(_, b)| b).scan(None, around).collect();
+    after.reverse();
+    before.into_iter().zip(after).filter_map(|(before, after)| union(before, after)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn at(place: f64, size: f64) -> Aabb {
+        Aabb { min: DVec3::splat(place), max: DVec3::splat(place + size) }
+    }
+
+    fn apart(boxes: &[Aabb]) -> Vec<usize> {
+        let mut boxes = boxes.iter().copied().enumerate().collect();
+        take_apart(&mut boxes).into_iter().map(|(object, _)| object).collect()
+    }
+
+    #[test]
+    fn small_things_far_away_lie_apart_and_nothing_else_does() {
+        assert_eq!(apart(&[at(0.0, 1.0), at(1000.0, 0.01)]), [1]);
+        assert_eq!(apart(&[at(-500.0, 0.1), at(0.0, 1.0), at(1000.0, 0.01)]), [2, 0]);
+        assert_eq!(apart(&[at(0.0, 1.0), at(1000.0, 1.0)]), [0; 0], "two of a kind");
+        assert_eq!(apart(&[at(0.0, 1.0), at(5.0, 0.01)]), [0; 0], "near enough");
+        assert_eq!(apart(&[at(0.0, 1.0), at(-500.0, 1000.0)]), [0; 0], "a sky around it");
+        assert_eq!(apart(&[at(0.0, 1.0)]), [0; 0]);
+        let dust: Vec<Aabb> = (0..20).map(|grain| at(1000.0 * f64::from(grain * grain * grain), 0.01)).collect();
+        assert_eq!(apart(&[&[at(0.0, 1.0)], &dust[1..]].concat()), [0; 0], "a scene of small things");
+    }
+}
