@@ -15,6 +15,7 @@ impl App {
             Command::ChooseFile => self.desk.choose_file(ctx),
             Command::CancelLoading => self.cancel_loading(),
             Command::Discretize(discretization) => self.settings.method.discretization = discretization,
+            Command::Fit(fit) => self.settings.shot.fit = fit,
             Command::Look(look) => self.settings.method.look = look,
             Command::Reference(order) => self.desk.reference.apply(order),
             Command::Measure(order) => self.measure(ctx, order),

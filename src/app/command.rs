@@ -6,7 +6,7 @@ use super::inspector::Pin;
 use super::measuring;
 use super::reference::Order;
 use crate::scene::OrbitCamera;
-use crate::settings::{ConeTracing, Discretization, Lighting, Look, MotionSettings};
+use crate::settings::{ConeTracing, Discretization, Fit, Lighting, Look, MotionSettings};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
@@ -18,6 +18,8 @@ pub enum Command {
     ChooseFile,
     CancelLoading,
     Discretize(Discretization),
+    /// Something else is enclosed by the grid.
+    Fit(Fit),
     Look(Look),
     Light(Lighting),
     /// Other cones from surfaces.

@@ -6,6 +6,7 @@ use egui::{Panel, ScrollArea, TextEdit, Ui};
 
 use super::command::Command;
 use super::panels::cones::ConesPanel;
+use super::panels::discretization::DiscretizationPanel;
 use super::panels::light::LightPanel;
 use super::panels::reference::ReferencePanel;
 use super::panels::top_bar::TopBar;
@@ -119,7 +120,15 @@ impl App {
             panels::scene::ui(ui, scene, &mut self.desk.path, &self.desk.recent)
         });
         commands.extend(section(ui, "Discretization", true, |ui| {
-            panels::discretization::ui(ui, &settings.method.discretization, grid.map(|grid| grid.span))
+            panels::discretization::ui(
+                ui,
+                DiscretizationPanel {
+                    discretization: &settings.method.discretization,
+                    shot: &settings.shot,
+                    span: grid.map(|grid| grid.span),
+                    selected: self.desk.tree.selected,
+                },
+            )
         }));
         commands
             .extend(section(ui, "Filter", true, |ui| panels::filter::ui(ui, settings, self.stage.accuracy.as_ref())));

@@ -12,7 +12,7 @@ use crate::prepare::{Preparation, Prepared};
 use crate::scene::Scene;
 use crate::scene::camera::camera_from_scene_camera;
 use crate::scene::load::SceneChoice;
-use crate::settings::{MotionSettings, NodeNames, Visibility};
+use crate::settings::{Fit, MotionSettings, NodeNames, Visibility};
 
 impl App {
     /// `shown`: which of several scenes in the file.
@@ -20,6 +20,7 @@ impl App {
         // A span, a pose and a camera of one scene mean nothing in another.
         if self.scene.is_some() {
             self.settings.method.discretization.span = None;
+            self.settings.shot.fit = Fit::default();
         }
         self.loader.open(ctx, &path, shown, Preparation::from(&self.settings));
         self.desk.path = path.display().to_string();
@@ -119,6 +120,9 @@ impl App {
             *visibility = Visibility::default();
             error.to_string()
         });
+        if names.choose_nodes() {
+            self.settings.shot.fit.counted.clone_from(&self.settings.shot.visibility);
+        }
         let lighting = &mut self.settings.method.lighting;
         let lit = names.change_lights(scene, lighting).map_err(|error| {
             lighting.edits.clear();

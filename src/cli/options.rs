@@ -9,11 +9,11 @@ use octolume::export;
 use octolume::scene::OrbitCamera;
 use octolume::scene::load::{OpenOptions, SceneChoice};
 use octolume::settings::VoxelizationMode;
-use octolume::settings::{Discretization, Filter, NodeNames, Settings, VoxelAnchor};
+use octolume::settings::{Discretization, Filter, Fit, NodeNames, Settings, VoxelAnchor};
 
 use super::cone_options::ConeOptions;
 use super::lighting_options::LightingOptions;
-use super::values::set;
+use super::values::{FitChoice, set};
 use super::{Usage, values};
 
 #[derive(Debug, Args)]
@@ -25,9 +25,14 @@ pub struct Common {
     /// Cells along an axis of the grid: 64, 128, 256, 512 or 1024; otherwise 128
     #[arg(long, value_name = "N")]
     grid: Option<u32>,
-    /// Edge of a cell in scene units; otherwise the scene fits in the grid at all times
+    /// Edge of a cell in scene units; otherwise as large as what the grid encloses asks for
     #[arg(long, value_name = "LENGTH", value_parser = values::number, allow_hyphen_values = true)]
     span: Option<f64>,
+    /// What the grid encloses: everything at all times (scene), what is shown over the clip that is played, or at the
+    /// moment alone (pose), what --only names (selection), or a box in scene units; otherwise clip. Small things far
+    /// from the rest count for scene and selection only
+    #[arg(long, value_name = "scene|clip|pose|selection|X,Y,Z:X,Y,Z", allow_hyphen_values = true)]
+    fit: Option<FitChoice>,
     /// How a moved voxel falls into cells; otherwise split
     #[arg(long, value_name = "nearest|split", value_parser = values::name::<Filter>)]
     filter: Option<Filter>,
@@ -40,7 +45,7 @@ pub struct Common {
     /// The octree's levels down to this one are stored densely; otherwise 6, and 5 in a grid of 64
     #[arg(long, value_name = "LEVEL")]
     dense_level: Option<u32>,
-    /// Clip by name, "" for the rest pose; otherwise the first
+    /// Clip by name or number from 0, "" for the rest pose; otherwise the first
     #[arg(long, value_name = "NAME")]
     clip: Option<String>,
     /// Turns the whole scene about its centre after voxelization: degrees about x, y, z
@@ -103,6 +108,9 @@ impl Common {
             settings.shot.motion.clip.clone_from(&self.clip);
         }
         set(&mut settings.shot.motion.turn_degrees, self.turn);
+        if let Some(FitChoice(to)) = self.fit {
+            settings.shot.fit = Fit { to, ..Fit::default() };
+        }
         if let (Some(eye), Some(target)) = (self.eye, self.target) {
             let fov_y_degrees = self.fov.unwrap_or(OrbitCamera::default().fov_y_degrees);
             settings.shot.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });

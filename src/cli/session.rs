@@ -101,6 +101,9 @@ pub fn prepare_only(
     settings.shot.scene = Some(scene.identity());
     let names = common.node_names();
     output::warnings(&names.apply(&scene, &mut settings.shot.visibility)?);
+    if names.choose_nodes() {
+        settings.shot.fit.counted.clone_from(&settings.shot.visibility);
+    }
     output::warnings(&names.change_lights(&scene, &mut settings.method.lighting)?);
     settings.shot.visibility.shown_nodes(&scene)?;
     let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;

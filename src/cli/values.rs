@@ -4,7 +4,8 @@
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-use octolume::settings::ShotSettings;
+use glam::DVec3;
+use octolume::settings::{FitTo, ShotSettings};
 use serde::de::value::Error as NameError;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
@@ -46,6 +47,31 @@ pub fn cell(text: &str) -> Result<[u32; 3], String> {
     numbers
         .and_then(|numbers| <[u32; 3]>::try_from(numbers).ok())
         .ok_or_else(|| "three whole numbers from 0 as X,Y,Z are wanted".to_owned())
+}
+
+/// What the grid encloses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitChoice(pub FitTo);
+
+impl FromStr for FitChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let corners = |text: &str| {
+            let (min, max) = text.split_once(':')?;
+            Some([vector(min).ok()?, vector(max).ok()?].map(DVec3::from_array))
+        };
+        match text {
+            "scene" => Ok(Self(FitTo::Scene)),
+            // What counts beside is what is shown.
+            "clip" | "selection" => Ok(Self(FitTo::Clip)),
+            "pose" => Ok(Self(FitTo::Pose)),
+            other => {
+                let [min, max] = corners(other).ok_or("scene, clip, pose, selection or a box X,Y,Z:X,Y,Z is wanted")?;
+                Ok(Self(FitTo::Box { min, max }))
+            }
+        }
+    }
 }
 
 /// A picture's size in pixels, written `WxH`.

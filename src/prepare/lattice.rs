@@ -117,7 +117,8 @@ pub fn visible_objects(scene: &Scene, grid: &Grid, motion: MotionReport) -> (Vec
     warnings.sort_by(|a, b| a.sentence.cmp(&b.sentence));
     let visible = objects.into_iter().enumerate().filter(|(index, _)| !hidden.contains(index));
     let prepared = visible.map(|(_, object)| {
-        let lattice = lattice_of(&object, &rest, grid, !shared.contains_key(&object.mesh));
+        let stands = !shared.contains_key(&object.mesh) && is_countable(scene, &object, &rest, grid);
+        let lattice = lattice_of(&object, &rest, grid, stands);
         PreparedObject { object, cache: 0, lattice }
     });
     (prepared.collect(), warnings)
@@ -133,8 +134,17 @@ fn share_warning(scene: &Scene, mesh: usize, count: usize) -> Warning {
     Warning { nodes: nodes.map(|(index, _)| index).collect(), ..Warning::new(sentence) }
 }
 
-fn lattice_of(object: &Object, rest: &Pose, grid: &Grid, has_own: bool) -> Lattice {
-    if object.motion == Motion::Static && has_own {
+/// Whether the cells of a still object can be counted from the grid's anchor. One at no finite place, or too far, is as
+/// one that moves: it is left out, and named.
+fn is_countable(scene: &Scene, object: &Object, rest: &Pose, grid: &Grid) -> bool {
+    let corners = scene.mesh_box(object.mesh).into_iter().flat_map(|bounds| bounds.corners());
+    let world_from_mesh = rest.world_from_node[object.node];
+    let mut cells = corners.map(|corner| grid.cells_from_anchor(world_from_mesh.transform_point3(corner)));
+    cells.all(|cells| cells.is_finite() && cells.abs().max_element() <= MAX_SCENE_CELLS / 2.0)
+}
+
+fn lattice_of(object: &Object, rest: &Pose, grid: &Grid, stands: bool) -> Lattice {
+    if object.motion == Motion::Static && stands {
         return Lattice::Grid { grid: *grid, world_from_mesh: rest.world_from_node[object.node] };
     }
     let thick = unflattened(object.stretch);

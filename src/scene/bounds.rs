@@ -157,7 +157,8 @@ impl Scene {
         bounds.filter(Aabb::is_finite)
     }
 
-    pub(super) fn mesh_box(&self, mesh: usize) -> Option<Aabb> {
+    /// Of a mesh in its own space.
+    pub fn mesh_box(&self, mesh: usize) -> Option<Aabb> {
         let primitives = &self.meshes[mesh].primitives;
         Aabb::from_points(primitives.iter().flat_map(|p| &p.positions).map(|position| position.as_dvec3()))
     }

@@ -20,6 +20,11 @@ pub struct NodeNames {
 }
 
 impl NodeNames {
+    /// Whether any name hides a node or shows it alone.
+    pub fn choose_nodes(&self) -> bool {
+        !(self.hide.is_empty() && self.only.is_empty())
+    }
+
     /// Adds the nodes of all names to what is set. Returns a sentence for each name that is not the
     /// name of one node alone.
     pub fn apply(&self, scene: &Scene, visibility: &mut Visibility) -> Result<Vec<String>, VisibilityError> {

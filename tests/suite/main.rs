@@ -117,6 +117,7 @@ mod tiles;
 mod transform;
 mod transform_scenes;
 mod transform_skinned;
+mod vanishing;
 mod view;
 mod view_rig;
 mod voxelization;

@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DQuat, DVec3};
 use octolume::engine::Engine;
 use octolume::prepare::{FrameMatrices, Prepared, prepare};
 use octolume::progress::Progress;
-use octolume::scene::{LocalTransform, Node, Scene, Trs};
+use octolume::scene::{Channel, Interpolation, LocalTransform, Node, Scene, Trs};
 use octolume::settings::{Discretization, Hidden, MethodSettings, MotionSettings, Settings, VoxelAnchor};
 
 use crate::device;
-use crate::scenes::{at, cube_scene, node, skinned_scene};
+use crate::scenes::{at, clip, cube_scene, node, rotation, skinned_scene};
 
 const SPAN: f64 = 0.06;
 
@@ -59,6 +59,8 @@ fn a_voxel_between_opposite_joints_is_in_the_grid_though_no_joint_alone_brings_i
 fn a_place_too_far_for_an_f32_is_left_out_and_named_and_the_rest_is_unharmed() {
     let mut scene = cube_scene(Trs::default());
     scene.nodes.push(Node { name: "comet".to_owned(), mesh: Some(0), ..node(None, Trs::default()) });
+    let turns = [DQuat::IDENTITY, DQuat::from_rotation_x(1.0)];
+    scene.clips.push(clip(vec![Channel { node: 1, ..rotation(Interpolation::Linear, &turns) }]));
     let at_home = prepared(scene.clone());
     for (cells, is_left_out) in [(3.5e38, true), (1e300, true), (3.0e38, false)] {
         scene.nodes[1].local = LocalTransform::Trs(Trs { translation: DVec3::Y * cells * SPAN, ..Trs::default() });

@@ -66,7 +66,7 @@ pub(super) fn load(
                 warnings.extend(repairs.told().map(|told| object.warning(told).at(node)));
                 channels.push(channel);
             }
-            Err(cause) => warnings.push(object.warning(format!("{cause}; it is left out")).at(node)),
+            Err(cause) => leave_out(source, &object, &cause, node, warnings)?,
         }
     }
     for (sampler, node) in visibility(animation) {
@@ -80,7 +80,7 @@ pub(super) fn load(
                 warnings.extend(repairs.told().map(|told| object.warning(told).at(node)));
                 channels.push(channel);
             }
-            Err(cause) => warnings.push(object.warning(format!("{cause}; it is left out")).at(node)),
+            Err(cause) => leave_out(source, &object, &cause, node, warnings)?,
         }
     }
     for node in morphed {
@@ -93,6 +93,21 @@ pub(super) fn load(
         duration_secs: channels.iter().filter_map(|channel| channel.times_secs.last()).copied().fold(0.0, f64::max),
         channels,
     })
+}
+
+/// A channel that cannot be read is left out, unless for want of memory.
+fn leave_out(
+    source: &Source,
+    object: &FileObject,
+    cause: &str,
+    node: usize,
+    warnings: &mut Vec<Warning>,
+) -> Result<(), Defect> {
+    if source.budget.is_exceeded() {
+        return Err(Defect::new(object.clone(), cause));
+    }
+    warnings.push(object.warning(format!("{cause}; it is left out")).at(node));
+    Ok(())
 }
 
 /// Sampler and node of each channel that shows and hides, as [`super::json`] sets them apart.

@@ -19,7 +19,8 @@ impl Budget {
     /// Sets `bytes` aside, or says how much would be needed. Nothing is given back: what opening
     /// reads stays in the scene, or was as large as what stays.
     pub fn spend(&self, bytes: u64) -> Result<(), String> {
-        let before = self.spent.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |spent| spent.checked_add(bytes));
+        let add = |spent: u64| Some(spent.saturating_add(bytes));
+        let before = self.spent.fetch_update(Ordering::Relaxed, Ordering::Relaxed, add);
         let total = before.unwrap_or(u64::MAX).saturating_add(bytes);
         if total <= self.limit {
             return Ok(());
@@ -31,6 +32,11 @@ impl Budget {
     /// [`Self::spend`] for `count` elements of `size` bytes.
     pub fn spend_on(&self, count: usize, size: usize) -> Result<(), String> {
         self.spend((count as u64).saturating_mul(size as u64))
+    }
+
+    /// Something was refused.
+    pub fn is_exceeded(&self) -> bool {
+        self.spent_bytes() > self.limit
     }
 
     pub fn spent_bytes(&self) -> u64 {
@@ -50,5 +56,6 @@ mod tests {
         let refused = budget.spend(2 << 20).expect_err("1 MiB is left");
         assert!(refused.contains("4.0 MiB") && refused.contains("3.0 MiB"), "{refused}");
         assert!(budget.spend(u64::MAX).is_err(), "no overflow");
+        assert!(budget.is_exceeded() && !Budget::new(1).is_exceeded());
     }
 }
