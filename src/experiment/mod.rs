@@ -32,8 +32,10 @@ use crate::gpu::{Gpu, GpuError};
 use crate::prepare::Prepared;
 use crate::settings::Settings;
 
-pub use accuracy::rendering::{RenderingOptions, RenderingRow, paths_in_that_time, rendering};
-pub use accuracy::shadows::{ShadowRow, shadows};
+pub use accuracy::rendering::{RenderingOptions, rendering};
+pub use accuracy::rendering_row::{RenderingRow, paths_in_that_time};
+pub use accuracy::shadow_row::ShadowRow;
+pub use accuracy::shadows::shadows;
 pub use accuracy::traced::{Traced, traced};
 pub use accuracy::voxels::{VoxelRow, voxels};
 pub use bench::light::LightReport;

@@ -11,6 +11,7 @@ mod listed_names;
 mod look;
 mod motion;
 mod node_names;
+mod view;
 mod visibility;
 
 use serde::{Deserialize, Serialize};
@@ -20,11 +21,10 @@ pub use discretization::{Discretization, Filter, VoxelAnchor, VoxelizationMode};
 pub use format::FORMAT;
 pub use light_names::{LightChange, LightError};
 pub use lighting::Lighting;
-pub use look::{
-    AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, SurfaceView, ToneCurve, View,
-};
+pub use look::{AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, ToneCurve};
 pub use motion::MotionSettings;
 pub use node_names::NodeNames;
+pub use view::{SurfaceView, View};
 pub use visibility::{Hidden, Visibility, VisibilityError};
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -4,18 +4,16 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use serde::Serialize;
-
 use super::posed;
+use super::shadow_row::{METHODS, Method, ShadowRow, together};
 use crate::accuracy::alone;
 use crate::accuracy::posed_triangles::PosedTriangles;
-use crate::accuracy::shadows::{LeafPlaces, POINTS, ShadowError, TrueShadows, spread};
+use crate::accuracy::shadows::{LeafPlaces, POINTS, TrueShadows, spread};
 use crate::data::world_voxels::WorldVoxels;
 use crate::engine::PassTiming;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
-use crate::experiment::table::{Table, name_of, turn};
 use crate::experiment::{Experiment, ExperimentError, Subject};
 use crate::gpu::Gpu;
 use crate::lights::{KnownLight, Shines, posed_lights};
@@ -25,44 +23,6 @@ use crate::progress::Progress;
 use crate::settings::lighting::Shadows;
 use crate::settings::{ColorBy, MotionSettings, Settings, View};
 use crate::spread::Spread;
-
-/// One light of one pose by one method.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ShadowRow {
-    pub scene: String,
-    pub clip: Option<String>,
-    pub time_secs: f64,
-    pub turn_degrees: [f64; 3],
-    pub grid: u32,
-    pub span: f64,
-    pub light: String,
-    #[serde(flatten)]
-    method: Method,
-    /// Of shadow map and irradiance.
-    pub kernel_ms: f64,
-    #[serde(flatten)]
-    pub error: ShadowError,
-}
-
-/// The mean over several lights.
-const ALL_LIGHTS: &str = "all";
-
-/// How a leaf learns whether the light reaches it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-struct Method {
-    shadows: Shadows,
-    /// Texels along an edge of a shadow map.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    map_px: Option<u32>,
-}
-
-const METHODS: [Method; 5] = [
-    Method { shadows: Shadows::Map, map_px: Some(1024) },
-    Method { shadows: Shadows::Map, map_px: Some(2048) },
-    Method { shadows: Shadows::Map, map_px: Some(4096) },
-    Method { shadows: Shadows::March, map_px: None },
-    Method { shadows: Shadows::Off, map_px: None },
-];
 
 /// A light that is compared.
 struct Compared {
@@ -207,63 +167,4 @@ async fn measure(lab: &mut Lab, settings: &Settings, (what, share): (&str, Share
     })
     .await?;
     Ok(Spread::of(&times_ms).ok_or_else(|| ExperimentError::NoTimes(what.to_owned()))?.median_ms)
-}
-
-/// Of the rows of several lights, method by method: milliseconds of all, and their mean error.
-fn together(rows: &[ShadowRow]) -> Vec<ShadowRow> {
-    let merged = |method: Method| {
-        let of_method = || rows.iter().filter(move |row| row.method == method);
-        let errors: Vec<ShadowError> = of_method().map(|row| row.error).collect();
-        let kernel_ms = of_method().map(|row| row.kernel_ms).sum();
-        let row = of_method().next()?.clone();
-        Some(ShadowRow { light: ALL_LIGHTS.to_owned(), kernel_ms, error: ShadowError::of_all(&errors), ..row })
-    };
-    METHODS.into_iter().filter_map(merged).collect()
-}
-
-impl ShadowRow {
-    const HEADS: [&'static str; 12] = [
-        "scene",
-        "time s",
-        "turn °",
-        "grid",
-        "light",
-        "shadows",
-        "kernel ms",
-        "points",
-        "lit %",
-        "mean error %",
-        "lost %",
-        "leaked %",
-    ];
-
-    pub(in crate::experiment) fn table(rows: &[Self]) -> Table {
-        Table::new("shadows", &Self::HEADS, rows.iter().map(Self::cells))
-    }
-
-    fn cells(&self) -> Vec<String> {
-        let error = &self.error;
-        let percent = |share: f64| format!("{share:.2}");
-        vec![
-            self.scene.clone(),
-            format!("{:.3}", self.time_secs),
-            turn(self.turn_degrees),
-            self.grid.to_string(),
-            self.light.clone(),
-            self.method.name(),
-            format!("{:.2}", self.kernel_ms),
-            error.points.to_string(),
-            percent(error.lit_percent),
-            percent(error.mean_error_percent),
-            percent(error.lost_percent),
-            percent(error.leaked_percent),
-        ]
-    }
-}
-
-impl Method {
-    fn name(self) -> String {
-        let name = name_of(&self.shadows);
-        self.map_px.map_or(name.clone(), |px| format!("{name} {px}"))
-    }
 }
