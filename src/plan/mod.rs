@@ -38,7 +38,6 @@ pub use part::Part;
 pub use pass::Pass;
 pub use rows::{Row, State};
 pub use views::{light_shown, shows_light, tells_mean_light};
-pub use voxels::layout_of;
 
 /// A part that a frame makes.
 #[derive(Clone, Debug)]
