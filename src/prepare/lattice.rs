@@ -1,19 +1,10 @@
-//! Grids and lattices (section 4.2, Eqs. 1 and 2). A cache's origin is an integer multiple of δ in
-//! its own space; the grid's corner is the scene's anchor plus integers · δ, so nothing depends on
-//! world zero. Static objects used once lie on the grid's own lattice and reproduce exactly.
+//! Lattices (section 4.2, Eq. 1). A cache's origin is an integer multiple of δ in its own space. Static objects used
+//! once lie on the grid's own lattice and reproduce exactly.
 
-use std::collections::HashMap;
+use glam::{DMat3, DMat4, DVec3, Vec3};
 
-use glam::{DMat3, DMat4, DVec3, IVec3, Vec3};
-
-use super::{PrepareError, PreparedObject};
 use crate::data::grid::Grid;
-use crate::data::packing::unpack_position;
-use crate::data::voxel_cache::{Tile, VoxelCache};
-use crate::scene::bounds::Aabb;
 use crate::scene::geometry::normal_matrix;
-use crate::scene::{Motion, MotionReport, Object, Pose, Scene};
-use crate::settings::Discretization;
 
 /// Where an object's cache lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,63 +57,6 @@ impl Lattice {
     }
 }
 
-/// Cells left free around the scene, so that rounding touches no border.
-const MARGIN_CELLS: u32 = 1;
-
-/// Scenes this wide still have exact cell numbers in 32 bits, whatever is added to them.
-const MAX_SCENE_CELLS: f64 = (1 << 30) as f64;
-
-/// The grid around the scene's posed bounds, centred by whole cells.
-pub fn grid_around(scene: &str, bounds: Option<Aabb>, discretization: &Discretization) -> Result<Grid, PrepareError> {
-    let cells = discretization.grid;
-    if !Discretization::GRIDS.contains(&cells) {
-        return Err(PrepareError::Grid(cells));
-    }
-    let (anchor, size) = bounds.map_or((DVec3::ZERO, DVec3::ZERO), |bounds| (bounds.min, bounds.size()));
-    let fitting = size.max_element() / f64::from(cells - 2 * MARGIN_CELLS);
-    let span = discretization.span.unwrap_or(if fitting > 0.0 { fitting } else { 1.0 });
-    if !(span.is_finite() && span > 0.0) {
-        return Err(PrepareError::Span(span));
-    }
-    let cells_wide = size.max_element() / span;
-    if cells_wide.is_nan() || cells_wide > MAX_SCENE_CELLS {
-        let scene = scene.to_owned();
-        return Err(PrepareError::TooWide { scene, span, cells: cells_wide, limit: MAX_SCENE_CELLS });
-    }
-    // Rounded off-centre: scenes whose extents are simple ratios would sit on a tie, and a last-bit
-    // difference in their bounds would shift the grid by a cell.
-    let free = (DVec3::splat(f64::from(cells)) - size / span) / 2.0;
-    let offset_cells = -(free + 0.381_966).floor().as_ivec3();
-    Ok(Grid { anchor, offset_cells, span, depth: discretization.depth() })
-}
-
-/// The objects that can be seen at some time, each on its lattice. `cache` is numbered later.
-pub fn visible_objects(scene: &Scene, grid: &Grid, motion: MotionReport) -> Vec<PreparedObject> {
-    let MotionReport { objects, hidden, stretching: _ } = motion;
-    let rest = scene.pose(None, 0.0);
-    let mut uses: HashMap<usize, usize> = HashMap::new();
-    for object in &objects {
-        *uses.entry(object.mesh).or_default() += 1;
-    }
-    let visible = objects.into_iter().enumerate().filter(|(index, _)| !hidden.contains(index));
-    visible
-        .map(|(_, object)| {
-            let lattice = lattice_of(&object, &rest, grid, uses[&object.mesh] == 1);
-            PreparedObject { object, cache: 0, lattice }
-        })
-        .collect()
-}
-
-fn lattice_of(object: &Object, rest: &Pose, grid: &Grid, used_once: bool) -> Lattice {
-    if object.motion == Motion::Static && used_once {
-        return Lattice::Grid { grid: *grid, world_from_mesh: rest.world_from_node[object.node] };
-    }
-    Lattice::Own {
-        cells_from_mesh: DMat4::from_scale(DVec3::splat(1.0 / grid.span)) * DMat4::from_mat3(object.stretch),
-        space_from_cells: DMat4::from_mat3(object.stretch.inverse()) * DMat4::from_scale(DVec3::splat(grid.span)),
-    }
-}
-
 /// Normals through the stretch: sign(det)·cofactor, any length.
 pub fn normals_in_cells(lattice: &Lattice, normals: &[Vec3]) -> Vec<DVec3> {
     // Scaled to the size of one, so that tiny spans do not underflow the cofactor.
@@ -130,12 +64,4 @@ pub fn normals_in_cells(lattice: &Lattice, normals: &[Vec3]) -> Vec<DVec3> {
     let size = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
     let matrix = normal_matrix(&(linear * (1.0 / size.max(f64::MIN_POSITIVE))));
     normals.iter().map(|normal| (matrix * normal.as_dvec3()).normalize_or_zero()).collect()
-}
-
-/// Largest position of a tile's voxels, plus one, per axis.
-pub fn tile_extent(cache: &VoxelCache, tile: &Tile) -> IVec3 {
-    let voxels = &cache.voxels[tile.voxels.start as usize..tile.voxels.end as usize];
-    voxels.iter().fold(IVec3::ZERO, |extent, voxel| {
-        extent.max(IVec3::from_array(unpack_position(voxel.position).map(|c| c as i32 + 1)))
-    })
 }
