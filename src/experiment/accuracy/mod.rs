@@ -2,8 +2,6 @@
 
 pub mod race;
 pub mod rendering;
-pub mod rendering_row;
-pub mod shadow_row;
 pub mod shadows;
 pub mod traced;
 pub mod voxels;

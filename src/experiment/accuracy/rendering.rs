@@ -8,8 +8,7 @@ use std::sync::Arc;
 
 use image::DynamicImage;
 
-use super::race::{Race, shown};
-use super::rendering_row::RenderingRow;
+use super::race::{run, shown};
 use super::traced::traced;
 use super::{picture_stem, posed};
 use crate::accuracy::path_tracer::{Film, Options, Term};
@@ -18,6 +17,7 @@ use crate::disk_cache::DiskCache;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames, Times};
 use crate::experiment::lab::Lab;
+use crate::experiment::rows::RenderingRow;
 use crate::experiment::surface_work::{self, SurfaceWork};
 use crate::experiment::table::name_of;
 use crate::experiment::{Experiment, ExperimentError, NamedPicture, Subject};
@@ -181,7 +181,7 @@ async fn race(
     let Some((place, cones)) = place.map(|place| (place, rows.borrow()[place].clone())) else { return Ok(()) };
     let (prepared, options) = (Arc::clone(&lab.prepared), paths(options));
     let race = lab.work((share, "tracing paths as long as cones took"), move |progress| {
-        Race::run((&prepared, &settings), (&truth, options), (cones.cones_ms / 1e3, cones.error), progress)
+        run((&prepared, &settings), (&truth, options), (cones.cones_ms / 1e3, cones.error), progress)
     });
     let race = race.await??;
     rows.borrow_mut()[place].race = Some(race);

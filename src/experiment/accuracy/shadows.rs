@@ -5,15 +5,15 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::posed;
-use super::shadow_row::{METHODS, Method, ShadowRow, together};
 use crate::accuracy::alone;
 use crate::accuracy::posed_triangles::PosedTriangles;
-use crate::accuracy::shadows::{LeafPlaces, POINTS, TrueShadows, spread};
+use crate::accuracy::shadows::{LeafPlaces, POINTS, ShadowError, TrueShadows, spread};
 use crate::data::world_voxels::WorldVoxels;
 use crate::engine::PassTiming;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
+use crate::experiment::rows::{Method, ShadowRow};
 use crate::experiment::{Experiment, ExperimentError, Subject};
 use crate::gpu::Gpu;
 use crate::lights::{KnownLight, Shines, posed_lights};
@@ -23,6 +23,17 @@ use crate::progress::Progress;
 use crate::settings::lighting::Shadows;
 use crate::settings::{ColorBy, MotionSettings, Settings, View};
 use crate::spread::Spread;
+
+/// The mean over several lights.
+const ALL_LIGHTS: &str = "all";
+
+const METHODS: [Method; 5] = [
+    Method { shadows: Shadows::Map, map_px: Some(1024) },
+    Method { shadows: Shadows::Map, map_px: Some(2048) },
+    Method { shadows: Shadows::Map, map_px: Some(4096) },
+    Method { shadows: Shadows::March, map_px: None },
+    Method { shadows: Shadows::Off, map_px: None },
+];
 
 /// A light that is compared.
 struct Compared {
@@ -167,4 +178,16 @@ async fn measure(lab: &mut Lab, settings: &Settings, (what, share): (&str, Share
     })
     .await?;
     Ok(Spread::of(&times_ms).ok_or_else(|| ExperimentError::NoTimes(what.to_owned()))?.median_ms)
+}
+
+/// Of the rows of several lights, method by method: milliseconds of all, and their mean error.
+fn together(rows: &[ShadowRow]) -> Vec<ShadowRow> {
+    let merged = |method: Method| {
+        let of_method = || rows.iter().filter(move |row| row.method == method);
+        let errors: Vec<ShadowError> = of_method().map(|row| row.error).collect();
+        let kernel_ms = of_method().map(|row| row.kernel_ms).sum();
+        let row = of_method().next()?.clone();
+        Some(ShadowRow { light: ALL_LIGHTS.to_owned(), kernel_ms, error: ShadowError::of_all(&errors), ..row })
+    };
+    METHODS.into_iter().filter_map(merged).collect()
 }

@@ -30,7 +30,7 @@ pub struct RenderingRow {
     pub paths_mean_error: f64,
     /// Of the final picture.
     #[serde(flatten)]
-    pub(super) race: Option<Race>,
+    pub(in crate::experiment) race: Option<Race>,
 }
 
 impl RenderingRow {

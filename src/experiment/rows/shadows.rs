@@ -17,43 +17,20 @@ pub struct ShadowRow {
     pub span: f64,
     pub light: String,
     #[serde(flatten)]
-    pub(super) method: Method,
+    pub(in crate::experiment) method: Method,
     /// Of shadow map and irradiance.
     pub kernel_ms: f64,
     #[serde(flatten)]
     pub error: ShadowError,
 }
 
-/// The mean over several lights.
-const ALL_LIGHTS: &str = "all";
-
 /// How a leaf learns whether the light reaches it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub(super) struct Method {
+pub(in crate::experiment) struct Method {
     pub shadows: Shadows,
     /// Texels along an edge of a shadow map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub map_px: Option<u32>,
-}
-
-pub(super) const METHODS: [Method; 5] = [
-    Method { shadows: Shadows::Map, map_px: Some(1024) },
-    Method { shadows: Shadows::Map, map_px: Some(2048) },
-    Method { shadows: Shadows::Map, map_px: Some(4096) },
-    Method { shadows: Shadows::March, map_px: None },
-    Method { shadows: Shadows::Off, map_px: None },
-];
-
-/// Of the rows of several lights, method by method: milliseconds of all, and their mean error.
-pub(super) fn together(rows: &[ShadowRow]) -> Vec<ShadowRow> {
-    let merged = |method: Method| {
-        let of_method = || rows.iter().filter(move |row| row.method == method);
-        let errors: Vec<ShadowError> = of_method().map(|row| row.error).collect();
-        let kernel_ms = of_method().map(|row| row.kernel_ms).sum();
-        let row = of_method().next()?.clone();
-        Some(ShadowRow { light: ALL_LIGHTS.to_owned(), kernel_ms, error: ShadowError::of_all(&errors), ..row })
-    };
-    METHODS.into_iter().filter_map(merged).collect()
 }
 
 impl ShadowRow {
