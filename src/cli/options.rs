@@ -13,8 +13,9 @@ use octolume::settings::{Discretization, Filter, NodeNames, Settings, VoxelAncho
 
 use super::cone_options::ConeOptions;
 use super::lighting_options::LightingOptions;
+use super::usage::Usage;
+use super::values;
 use super::values::set;
-use super::{Usage, values};
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Common options")]
