@@ -11,7 +11,7 @@
 //! own frames, so several experiments and a window may share one GPU.
 
 mod accuracy;
-mod bench;
+pub mod bench;
 mod board;
 mod cost;
 mod error;

@@ -3,11 +3,12 @@
 //! The floor of a kernel is the bytes it must move over the bandwidth of a copy kernel measured in
 //! the same experiment; the ratio says how far above it the kernel is.
 
-mod copy;
-pub mod light;
+pub mod copy;
+pub mod copy_ref;
+mod light;
 mod rebuild;
 mod sampling;
-pub mod surfaces;
+mod surfaces;
 
 use std::cell::RefCell;
 use std::sync::Arc;
