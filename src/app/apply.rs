@@ -2,9 +2,10 @@
 
 use super::App;
 use super::command::Command;
+use super::measuring::Order;
 use super::playback;
-use super::screenshots::Format;
-use crate::settings::Visibility;
+use super::screenshots::{Content, Format};
+use crate::settings::{Settings, Visibility};
 
 impl App {
     /// Carries out one command. `clock_secs` is the window's clock.
@@ -68,6 +69,41 @@ impl App {
     fn restart_clock(&mut self, clock_secs: f64) {
         if self.playback.is_playing() {
             self.playback.play(clock_secs, self.settings.shot.motion.time_secs, self.clip_secs());
+        }
+    }
+
+    fn measure(&mut self, ctx: &egui::Context, order: Order) {
+        let measuring = &mut self.desk.measuring;
+        match order {
+            Order::Choose(measure) => measuring.measure = measure,
+            Order::Runs(runs) => measuring.runs = runs,
+            Order::Start => measuring.start(),
+            Order::Cancel => measuring.cancel(),
+            Order::Copy => measuring.json().into_iter().for_each(|json| ctx.copy_text(json)),
+            Order::Save => {
+                if let Some((name, json)) = measuring.name().zip(measuring.json()) {
+                    self.screenshots.save(ctx, Content::Report(json), &name);
+                }
+            }
+        }
+    }
+
+    fn undoable(&self) -> Settings {
+        let mut settings = self.settings.clone();
+        settings.shot.motion.time_secs = 0.0;
+        settings
+    }
+
+    pub(super) fn note_for_undo(&mut self, clock_secs: f64) {
+        let now = self.undoable();
+        self.undo.note(now, clock_secs);
+    }
+
+    fn undo_or_redo(&mut self, back: bool) {
+        let now = self.undoable();
+        if let Some(mut settings) = self.undo.step(&now, back) {
+            settings.shot.motion.time_secs = self.settings.shot.motion.time_secs;
+            self.settings = settings;
         }
     }
 }

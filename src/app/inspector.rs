@@ -3,8 +3,7 @@
 
 use egui::{Pos2, Rect, Response};
 
-use super::App;
-use super::journal::Severity;
+use super::stage::Stage;
 use crate::engine::{Engine, EngineError, NodeAddress, NodeFacts};
 
 /// What a person does with a node.
@@ -102,38 +101,27 @@ impl Inspector {
         }
         Ok(())
     }
-}
 
-impl App {
-    /// Once a frame, after the picture. Alt and a click pin the node under the pointer.
-    pub(super) fn inspect(&mut self, ui: &egui::Ui, response: &Response) {
-        let (stage, inspector) = (&self.stage, &mut self.desk.inspector);
-        if !inspector.is_open {
-            return;
-        }
+    /// Once a frame, after the picture, while its panel is unfolded. Alt and a click pin the node under the pointer.
+    pub fn follow(&mut self, ui: &egui::Ui, response: &Response, stage: &Stage) -> Result<(), EngineError> {
         if response.clicked() && ui.input(|input| input.modifiers.alt) {
-            inspector.clicked = response.interact_pointer_pos();
+            self.clicked = response.interact_pointer_pos();
         }
         if stage.working().is_some() || stage.error().is_some() {
-            return;
+            return Ok(());
         }
         let picture_px = stage.picture().map(crate::gpu::GpuTexture::size_px);
-        let at = inspector.clicked.or(response.hover_pos()).zip(picture_px);
+        let at = self.clicked.or(response.hover_pos()).zip(picture_px);
         let at = at.and_then(|(pos, size_px)| Some((pos, pixel_at(response.rect, pos, size_px)?)));
         // What was clicked may no longer be in the view.
-        inspector.clicked = inspector.clicked.filter(|_| at.is_some());
-        let before = inspector.read_of();
-        let read = inspector
-            .pick(&stage.engine, at, stage.results)
-            .and_then(|()| inspector.update(&stage.engine, stage.builds));
+        self.clicked = self.clicked.filter(|_| at.is_some());
+        let before = self.read_of();
+        let read = self.pick(&stage.engine, at, stage.results).and_then(|()| self.update(&stage.engine, stage.builds));
         // The panel was laid out before.
-        if inspector.read_of() != before {
+        if self.read_of() != before {
             ui.ctx().request_repaint();
         }
-        if let Err(error) = read {
-            inspector.is_open = false;
-            self.journal.tell(Severity::Error, error.to_string());
-        }
+        read
     }
 }
 

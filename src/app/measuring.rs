@@ -10,9 +10,6 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::App;
-use super::journal::Severity;
-use super::screenshots::Content;
 use crate::experiment::{self, BenchOptions, Experiment, Report, State, Subject};
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
@@ -186,39 +183,6 @@ impl Measuring {
 
     pub fn json(&self) -> Option<String> {
         serde_json::to_string_pretty(self.report.as_ref()?).ok()
-    }
-}
-
-impl App {
-    pub(super) fn measure(&mut self, ctx: &egui::Context, order: Order) {
-        let measuring = &mut self.desk.measuring;
-        match order {
-            Order::Choose(measure) => measuring.measure = measure,
-            Order::Runs(runs) => measuring.runs = runs,
-            Order::Start => measuring.start(),
-            Order::Cancel => measuring.cancel(),
-            Order::Copy => measuring.json().into_iter().for_each(|json| ctx.copy_text(json)),
-            Order::Save => {
-                if let Some((name, json)) = measuring.name().zip(measuring.json()) {
-                    self.screenshots.save(ctx, Content::Report(json), &name);
-                }
-            }
-        }
-    }
-
-    /// Gives an experiment that is on its way its slice of a frame of the window.
-    pub(super) fn follow_measuring(&mut self, ctx: &egui::Context, settings: &Settings) {
-        let Some(ready) = &self.scene else { return };
-        let (stage, prepared) = (&self.stage, &ready.prepared);
-        // The picture first.
-        let is_shared = stage.working().is_some() || self.latency.is_under_input();
-        let budget = if is_shared { stage.pace.budget_under_input } else { stage.pace.budget };
-        let shown = ShownScene { gpu: stage.engine.gpu(), prepared, settings, budget };
-        let (sentences, outcome) = self.desk.measuring.follow(ctx, &shown);
-        sentences.into_iter().for_each(|sentence| self.journal.note(Severity::Warning, sentence));
-        if let Err(error) = outcome {
-            self.journal.tell(Severity::Error, error);
-        }
     }
 }
 

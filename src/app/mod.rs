@@ -15,6 +15,7 @@ mod command;
 mod desk;
 mod device;
 mod exact_job;
+mod follow;
 mod history;
 mod inspector;
 mod journal;
@@ -32,20 +33,19 @@ mod picture;
 mod playback;
 mod reference;
 mod rescue;
+mod run;
 mod scale_ticks;
 mod screenshots;
 mod selection;
 mod shortcuts;
 mod stage;
+mod start;
 mod theme;
 mod undo;
 mod viewport;
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
-
-use anyhow::anyhow;
 
 use self::desk::Desk;
 use self::exact_job::ExactJob;
@@ -56,81 +56,21 @@ pub use self::pace::Pace;
 use self::playback::Playback;
 pub use self::rescue::Kept;
 use self::rescue::Rescue;
+pub use self::run::run;
 use self::screenshots::Screenshots;
 use self::stage::Stage;
+pub use self::start::Start;
 use self::undo::Undo;
 use self::viewport::Viewport;
-use crate::disk_cache::DiskCache;
 use crate::engine::Engine;
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
 use crate::scene::Clip;
-use crate::scene::load::OpenOptions;
 use crate::settings::{NodeNames, Settings};
 use crate::stages::SHADERS;
 
-/// How often a progress bar is redrawn.
-const PROGRESS_STEP: Duration = Duration::from_millis(100);
-
-/// A device that is lost sooner than this after the last one is not replaced.
-const WORTH_ANOTHER_DEVICE: Duration = Duration::from_secs(10);
-
-/// What a window starts with.
-#[derive(Clone, Debug, Default)]
-pub struct Start {
-    pub settings: Settings,
-    /// What is hidden or shown alone, looked up in the first scene.
-    pub names: NodeNames,
-    /// How files are opened; the scene that is asked for is one of the first file.
-    pub opening: OpenOptions,
-    /// Where voxels are kept; `None`: nowhere.
-    pub disk: Option<DiskCache>,
-}
-
-/// Opens the window on a file, or on a built-in scene by its name, and returns when it is closed.
-/// Without a display, or a GPU for it, the error is one sentence. When the GPU is lost, the window
-/// is opened again on a new device, with scene and settings kept.
-pub fn run(scene: &Path, start: Start, adapter: Option<&str>) -> anyhow::Result<()> {
-    if !device::has_display() {
-        return Err(anyhow!("there is no display to open a window on; the subcommands work without one"));
-    }
-    let rescue = Rescue::default();
-    let mut opened = Instant::now();
-    open_window(adapter, &rescue, |context| App::new(context, scene, start))?;
-    while let Some(kept) = rescue.take() {
-        if opened.elapsed() < WORTH_ANOTHER_DEVICE {
-            return Err(anyhow!("{}", kept.cause));
-        }
-        opened = Instant::now();
-        open_window(adapter, &rescue, |context| App::again(context, kept))?;
-    }
-    Ok(())
-}
-
 /// Why a window has no app.
 type NoApp = Box<dyn std::error::Error + Send + Sync>;
-
-fn open_window(
-    adapter: Option<&str>,
-    rescue: &Rescue,
-    app: impl FnOnce(&eframe::CreationContext<'_>) -> Result<App, NoApp>,
-) -> anyhow::Result<()> {
-    let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default().with_inner_size([1440.0, 900.0]).with_min_inner_size([640.0, 400.0]),
-        renderer: eframe::Renderer::Wgpu,
-        wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: device::setup(adapter), ..Default::default() },
-        ..Default::default()
-    };
-    let create: eframe::AppCreator<'_> = Box::new(move |context| {
-        let mut app = app(context)?;
-        app.rescue = rescue.clone();
-        Ok(Box::new(app))
-    });
-    eframe::run_native("Octolume", options, create).map_err(|error| match error {
-        eframe::Error::WinitEventLoop(_) => anyhow!("the display cannot be opened; the subcommands work without one"),
-        error => anyhow!("no window can be opened: {error}"),
-    })
-}
 
 /// The whole window.
 pub struct App {

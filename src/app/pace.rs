@@ -2,6 +2,9 @@
 
 use std::time::Duration;
 
+/// How often a progress bar is redrawn.
+pub const PROGRESS_STEP: Duration = Duration::from_millis(100);
+
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
     /// GPU time of a frame of the window that nobody touches.

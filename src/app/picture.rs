@@ -1,16 +1,14 @@
 //! The middle of the window: which picture is wanted now, how coarse it may be, and what lies over it.
 
-use std::sync::Arc;
-
 use egui::{Align2, FontId, Rect, Ui, vec2};
 
 use super::command::Command;
 use super::exact_job::Posed;
 use super::journal::Severity;
 use super::node_overlay::{self, Projection};
-use super::reference::{Seen, ShownSurfaces};
+use super::pace::PROGRESS_STEP;
 use super::screenshots::{Content, Format};
-use super::{App, PROGRESS_STEP, exact_job, legend, theme, viewport};
+use super::{App, exact_job, legend, theme, viewport};
 use crate::gpu::GpuTexture;
 use crate::scene::OrbitCamera;
 use crate::settings::{Settings, View};
@@ -85,24 +83,6 @@ impl App {
     fn is_moving(&self, clock_secs: f64) -> bool {
         let rest_secs = exact_job::REST.as_secs_f64();
         self.playback.is_playing() || self.moved_at_secs.is_some_and(|moved| clock_secs - moved < rest_secs)
-    }
-
-    /// The path tracer beside the picture: works on its own, and reads what is finished.
-    fn follow_reference(&mut self, ctx: &egui::Context, settings: &Settings, full_px: [u32; 2]) {
-        let Some(ready) = &self.scene else { return };
-        let stage = &self.stage;
-        let is_full = stage.picture().map(GpuTexture::size_px) == Some(full_px) && !stage.engine.shows_nothing();
-        let shown = ShownSurfaces {
-            seen: Seen { prepared: Arc::clone(&ready.prepared), settings: settings.clone(), size_px: full_px },
-            disk: self.loader.disk(),
-            engine: &stage.engine,
-            results: stage.results,
-            is_finished: is_full && stage.working().is_none() && stage.error().is_none(),
-            is_quiet: !self.latency.is_under_input(),
-        };
-        if let Err(error) = self.desk.reference.follow(ctx, &shown) {
-            self.journal.tell(Severity::Error, error);
-        }
     }
 
     fn save_screenshot(&mut self, ctx: &egui::Context, settings: &Settings, full_px: [u32; 2]) {

@@ -5,7 +5,6 @@
 
 use egui::util::undoer::Undoer;
 
-use super::App;
 use crate::settings::Settings;
 
 /// A change that comes later than this after the last begins a new step.
@@ -21,7 +20,7 @@ pub struct Undo {
 
 impl Undo {
     /// Once a frame, with what is set now.
-    fn note(&mut self, now: Settings, clock_secs: f64) {
+    pub fn note(&mut self, now: Settings, clock_secs: f64) {
         let Some(last) = self.last.as_ref().filter(|last| **last != now) else {
             self.last.get_or_insert(now);
             return;
@@ -32,7 +31,7 @@ impl Undo {
         (self.changed_at_secs, self.last) = (clock_secs, Some(now));
     }
 
-    fn step(&mut self, now: &Settings, back: bool) -> Option<Settings> {
+    pub fn step(&mut self, now: &Settings, back: bool) -> Option<Settings> {
         let step = if back { self.steps.undo(now) } else { self.steps.redo(now) };
         let step = step.cloned();
         if step.is_some() {
@@ -41,27 +40,6 @@ impl Undo {
             self.last.clone_from(&step);
         }
         step
-    }
-}
-
-impl App {
-    fn undoable(&self) -> Settings {
-        let mut settings = self.settings.clone();
-        settings.shot.motion.time_secs = 0.0;
-        settings
-    }
-
-    pub(super) fn note_for_undo(&mut self, clock_secs: f64) {
-        let now = self.undoable();
-        self.undo.note(now, clock_secs);
-    }
-
-    pub(super) fn undo_or_redo(&mut self, back: bool) {
-        let now = self.undoable();
-        if let Some(mut settings) = self.undo.step(&now, back) {
-            settings.shot.motion.time_secs = self.settings.shot.motion.time_secs;
-            self.settings = settings;
-        }
     }
 }
 

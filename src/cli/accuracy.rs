@@ -12,9 +12,10 @@ use octolume::settings::{MotionSettings, Settings};
 
 use super::drive::drive;
 use super::options::Common;
+use super::output;
 use super::session::Session;
+use super::usage::Usage;
 use super::values::{self, Size};
-use super::{Usage, output};
 
 /// Compares moved voxels, nearest and split, with the posed mesh voxelized exactly
 #[derive(Debug, Args)]

@@ -7,8 +7,9 @@ use octolume::experiment::{self, BenchOptions, Found, KernelReport, Report, Tabl
 
 use super::drive::drive;
 use super::options::{Common, Moment};
+use super::output;
 use super::session::Session;
-use super::{Usage, output};
+use super::usage::Usage;
 
 /// Measures every kernel of a whole rebuild, and a copy kernel beside them
 #[derive(Debug, Args)]

@@ -13,8 +13,9 @@ use serde::Serialize;
 
 use super::light_facts::{self, LightFacts};
 use super::options::{Common, Moment};
+use super::output;
 use super::session::{NO_PICTURE, Session};
-use super::{Usage, output};
+use super::usage::Usage;
 
 /// Says what is in a scene, what was repaired or left out, and what its octree holds
 #[derive(Debug, Args)]

@@ -6,7 +6,7 @@ use anyhow::Context;
 use clap::Args;
 use octolume::scene::builtin;
 
-use super::Usage;
+use super::usage::Usage;
 
 /// Writes a built-in scene as a .glb file
 #[derive(Debug, Args)]

@@ -23,6 +23,7 @@ mod plan;
 mod reference;
 mod render;
 mod session;
+mod usage;
 mod values;
 mod view_values;
 mod voxels;
@@ -34,6 +35,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use options::{Common, Moment};
+use usage::Usage;
 
 /// Inspects dynamic scene discretization: a scene becomes voxels once, then its voxels move.
 #[derive(Debug, Parser)]
@@ -62,11 +64,6 @@ enum Command {
     Make(make::Make),
     Cache(cache::Cache),
 }
-
-/// Options that are valid one by one but not together.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-struct Usage(String);
 
 /// Does what the arguments say.
 pub fn run(arguments: Arguments) -> anyhow::Result<()> {

@@ -9,7 +9,8 @@ use octolume::settings::{ColorBy, View};
 
 use super::options::{Common, Moment};
 use super::session::{NO_PICTURE, Session};
-use super::{Usage, output, values};
+use super::usage::Usage;
+use super::{output, values};
 
 /// Says what is stored of one node of the octree, and follows its pointers
 #[derive(Debug, Args)]

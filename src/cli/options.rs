@@ -13,8 +13,9 @@ use octolume::settings::{Discretization, Filter, Fit, NodeNames, Settings, Voxel
 
 use super::cone_options::ConeOptions;
 use super::lighting_options::LightingOptions;
+use super::usage::Usage;
+use super::values;
 use super::values::{FitChoice, set};
-use super::{Usage, values};
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Common options")]

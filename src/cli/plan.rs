@@ -7,8 +7,9 @@ use octolume::settings::{ColorBy, MethodSettings, Settings, ShotSettings};
 
 use super::look_options::LookOptions;
 use super::options::{Common, Moment};
+use super::output;
 use super::session::{NO_PICTURE, Session};
-use super::{Usage, output};
+use super::usage::Usage;
 
 /// Lists the passes of a frame, and why each runs, is reused or skipped
 #[derive(Debug, Args)]

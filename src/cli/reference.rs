@@ -11,7 +11,8 @@ use octolume::export;
 use octolume::prepare::Prepared;
 use octolume::settings::{Settings, SurfaceView, View};
 
-use super::{Usage, output};
+use super::output;
+use super::usage::Usage;
 
 const SAMPLES: u32 = 64;
 

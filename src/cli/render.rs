@@ -6,12 +6,12 @@ use clap::Args;
 use octolume::export;
 use octolume::settings::{Settings, View};
 
-use super::Usage;
 use super::look_options::LookOptions;
 use super::options::{Common, Moment};
 use super::output::{self, Told};
 use super::reference::ReferenceOptions;
 use super::session::{self, Session};
+use super::usage::Usage;
 use super::values::{self, Frames, Size};
 
 /// Size of a picture where neither option nor settings tell.

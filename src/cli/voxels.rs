@@ -10,8 +10,9 @@ use octolume::prepare::ExactVoxel;
 use octolume::settings::{Settings, View};
 
 use super::options::{Common, Moment};
+use super::output;
 use super::session::{NO_PICTURE, Session, prepare_only};
-use super::{Usage, output};
+use super::usage::Usage;
 
 /// Writes the cells of one moment with occupancy, albedo and normal, sorted by Morton key
 #[derive(Debug, Args)]

@@ -4,11 +4,11 @@
 //! first is what nobody can ask for again: broken instances, then those of another moment. What other methods made of
 //! this moment stays, up to [`KEPT_OF_A_PART`] instances and as long as there is memory.
 
+use std::any::Any;
 use std::collections::HashSet;
 
 use super::times::PassTiming;
 use crate::digest::Digest;
-use crate::gpu::GpuError;
 use crate::plan::Key;
 
 /// More methods than these are compared by nobody at once.
@@ -70,11 +70,6 @@ impl<T: Default> Pool<T> {
         Some(&mut self.0[place].content)
     }
 
-    /// The same, where somebody says that it must be there.
-    pub fn made(&self, key: &Key, label: &str) -> Result<&T, GpuError> {
-        self.get(key).ok_or_else(|| GpuError::Missing { label: label.to_owned() })
-    }
-
     /// Takes an instance out to be written for `key`; [`Self::put`] brings it back.
     pub fn begin(&mut self, key: &Key, turn: &Turn, pinned: &Pinned) -> T {
         let place = self.place(key).unwrap_or_else(|| self.free_place(turn, pinned));
@@ -109,17 +104,10 @@ impl<T: Default> Pool<T> {
             }
         }
     }
-
-    /// Forgets what was made from this input.
-    pub fn forget_made_from(&mut self, input: &Key) {
-        let is_made_from = |key: &Key| key.inputs().any(|(_, from)| from == input);
-        let made = self.0.iter_mut().filter(|instance| instance.key.as_ref().is_some_and(is_made_from));
-        made.for_each(|instance| instance.key = None);
-    }
 }
 
 /// What is done with pools of all kinds alike.
-pub trait Keeper {
+pub trait Keeper: Any {
     fn keys(&self) -> Vec<(u64, Key)>;
     /// `key` was called for by frame number `frame`.
     fn touch(&mut self, key: &Key, frame: u64);
@@ -130,6 +118,8 @@ pub trait Keeper {
     fn fail(&mut self);
     /// Nothing holds any more; buffers stay, to be written again.
     fn forget(&mut self);
+    /// The same of what was made from this input.
+    fn forget_made_from(&mut self, input: &Key);
     /// When the oldest instance that may be dropped was used last.
     fn oldest(&self, pinned: &Pinned) -> Option<u64>;
     fn drop_oldest(&mut self, pinned: &Pinned);
@@ -142,7 +132,7 @@ impl<T: Default> Pool<T> {
     }
 }
 
-impl<T: Default> Keeper for Pool<T> {
+impl<T: Default + 'static> Keeper for Pool<T> {
     fn keys(&self) -> Vec<(u64, Key)> {
         let made = self.0.iter().filter(|instance| instance.is_made);
         made.filter_map(|instance| Some((instance.used, instance.key.clone()?))).collect()
@@ -170,6 +160,12 @@ impl<T: Default> Keeper for Pool<T> {
 
     fn forget(&mut self) {
         self.0.iter_mut().for_each(|instance| instance.key = None);
+    }
+
+    fn forget_made_from(&mut self, input: &Key) {
+        let is_made_from = |key: &Key| key.inputs().any(|(_, from)| from == input);
+        let made = self.0.iter_mut().filter(|instance| instance.key.as_ref().is_some_and(is_made_from));
+        made.for_each(|instance| instance.key = None);
     }
 
     fn oldest(&self, pinned: &Pinned) -> Option<u64> {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::frame::{Frame, Room, Running, moment};
+use super::parts::kinds::{self, has_outgrown, is_ready};
 use super::parts::{Making, Parts, part_and_pass};
 use super::pool::Turn;
 use super::times::PassTiming;
@@ -91,7 +92,8 @@ impl Engine {
 
     fn record_parts(&mut self, frame: &mut Frame) -> Result<(), EngineError> {
         let (first, mut recorder, mut reads) = (frame.recorded, Recorder::default(), Vec::new());
-        while let Some(planned) = frame.left.to_run().get(frame.recorded).filter(|planned| self.parts.is_ready(planned))
+        while let Some(planned) =
+            frame.left.to_run().get(frame.recorded).filter(|planned| is_ready(&self.parts, planned))
         {
             let making = Making {
                 gpu: &self.gpu,
@@ -106,7 +108,9 @@ impl Engine {
             let moment = moment(planned.part, &frame.request.shot);
             let has_room = self.gpu.bytes_in_use() < self.kept_bytes;
             let turn = Turn { frame: frame.number, moment, has_room };
-            if let Some((buffer, range)) = self.parts.record(&making, &mut recorder, (&turn, &frame.pinned))? {
+            if let Some((buffer, range)) =
+                kinds::record(&mut self.parts, &making, &mut recorder, (&turn, &frame.pinned))?
+            {
                 recorder.read(&buffer, range);
                 reads.push(frame.recorded);
             }
@@ -125,7 +129,7 @@ impl Engine {
         let Some(mut running) = frame.running.take() else { return Ok(()) };
         let to_run = frame.left.to_run();
         for (&number, bytes) in running.reads.iter().zip(running.job.take_reads()) {
-            self.parts.received(&to_run[number], &self.gpu, &bytes)?;
+            kinds::received(&mut self.parts, &to_run[number], &self.gpu, &bytes)?;
         }
         let mut timings: Vec<Vec<PassTiming>> = vec![Vec::new(); to_run.len()];
         for kernel in running.job.take_timings() {
@@ -135,11 +139,11 @@ impl Engine {
         }
         let made = running.first..frame.recorded;
         let outgrown: Vec<Key> =
-            to_run[made.clone()].iter().filter(|p| self.parts.has_outgrown(p)).map(|p| p.key.clone()).collect();
+            to_run[made.clone()].iter().filter(|p| has_outgrown(&self.parts, p)).map(|p| p.key.clone()).collect();
         for number in made {
             let planned = &to_run[number];
             if !planned.key.is_made_from(&outgrown) {
-                self.parts.pool(planned.part).finish(&planned.key, std::mem::take(&mut timings[number]));
+                self.parts.finish(planned, std::mem::take(&mut timings[number]));
             }
         }
         if !outgrown.is_empty() {

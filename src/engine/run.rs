@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::frame::{Frame, pinned};
+use super::parts::picture::Drawn;
 use super::request::Request;
 use super::state::{FinishedFrame, OnScreen};
 use super::{Engine, EngineError, EngineState};
@@ -56,13 +57,13 @@ impl Engine {
     fn show(&mut self, request: Arc<Request>, plan: FramePlan, number: u64) {
         if let Some(keys) = plan.keys().first()
             && let Some(key) = keys.get(Part::Picture)
-            && let Some(picture) = self.parts.pictures.finished(key).and_then(|shown| shown.picture.clone())
+            && let Some(picture) = self.parts.finished::<Drawn>(keys).and_then(|shown| shown.picture.clone())
         {
             let keys = [Some(key), keys.get(Part::ComposedLight)].into_iter().flatten().cloned().collect();
             self.on_screen = Some(OnScreen { request: Arc::clone(&request), keys, picture });
         }
         for (part, key) in plan.keys().iter().flat_map(Keys::iter) {
-            self.parts.pool(part).touch(key, number);
+            self.parts.touch(part, key, number);
         }
         let pinned = pinned(&plan, self.keys_on_screen());
         while self.gpu.bytes_in_use() > self.kept_bytes && self.parts.drop_oldest(&pinned) {}
@@ -85,7 +86,7 @@ impl Engine {
     /// Forgets results so that the next frame makes them again, as [`bench`](crate) needs.
     pub fn invalidate(&mut self) {
         let uploaded = [Part::Caches, Part::Pages];
-        Part::ALL.into_iter().filter(|part| !uploaded.contains(part)).for_each(|part| self.parts.pool(part).forget());
+        Part::ALL.into_iter().filter(|part| !uploaded.contains(part)).for_each(|part| self.parts.forget(part));
     }
 
     /// Forgets light, shadow maps and pointers alone, and what shows them.
@@ -93,7 +94,7 @@ impl Engine {
         self.invalidate_surfaces();
         let light =
             [Part::BlockLinks, Part::NodeLinks, Part::Emission, Part::ShadowMaps, Part::Light, Part::Irradiance];
-        light.into_iter().for_each(|part| self.parts.pool(part).forget());
+        light.into_iter().for_each(|part| self.parts.forget(part));
     }
 
     /// Forgets the surface image and all that is made from it.
@@ -108,6 +109,6 @@ impl Engine {
             Part::Exposure,
             Part::Picture,
         ];
-        seen.into_iter().for_each(|part| self.parts.pool(part).forget());
+        seen.into_iter().for_each(|part| self.parts.forget(part));
     }
 }

@@ -17,6 +17,9 @@ use crate::settings::Settings;
 /// Picture size where nothing is looked at.
 pub const NO_PICTURE: [u32; 2] = [1, 1];
 
+/// As the window's picture, for kernels that draw.
+pub const PICTURE_PX: [u32; 2] = [1280, 720];
+
 /// Frames before those that are measured, where nothing else is asked for.
 const WARMUP: u32 = 1;
 

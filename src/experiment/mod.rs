@@ -11,13 +11,15 @@
 //! own frames, so several experiments and a window may share one GPU.
 
 mod accuracy;
-mod bench;
+pub mod bench;
 mod board;
 mod cost;
 mod error;
 mod frames;
 mod lab;
 mod report;
+mod rows;
+mod subject;
 mod surface_work;
 mod table;
 
@@ -29,34 +31,23 @@ use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 
 use crate::gpu::{Gpu, GpuError};
-use crate::prepare::Prepared;
-use crate::settings::Settings;
 
-pub use accuracy::rendering::{RenderingOptions, RenderingRow, paths_in_that_time, rendering};
-pub use accuracy::shadows::{ShadowRow, shadows};
+pub use accuracy::rendering::{RenderingOptions, rendering};
+pub use accuracy::shadows::shadows;
 pub use accuracy::traced::{Traced, traced};
-pub use accuracy::voxels::{VoxelRow, voxels};
-pub use bench::light::LightReport;
-pub use bench::surfaces::SurfaceReport;
-pub use bench::{BenchOptions, KernelReport, bench};
+pub use accuracy::voxels::voxels;
+pub use bench::{BenchOptions, bench};
 pub use board::{NamedPicture, Remark};
 pub use cost::Cost;
 pub use error::{ExperimentError, TraceError};
 pub use report::{Found, Report};
+pub use rows::{KernelReport, LightReport, RenderingRow, ShadowRow, SurfaceReport, VoxelRow, paths_in_that_time};
+pub use subject::Subject;
 pub use surface_work::SurfaceWork;
 pub use table::Table;
 
 use board::Board;
 use lab::Lab;
-
-/// What is measured, and how often.
-#[derive(Clone)]
-pub struct Subject {
-    pub prepared: Arc<Prepared>,
-    pub settings: Settings,
-    /// Frames measured.
-    pub runs: u32,
-}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {

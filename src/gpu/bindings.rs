@@ -3,7 +3,7 @@
 use std::num::NonZeroU64;
 use std::ops::Range;
 
-use super::{Gpu, GpuBuffer, GpuError};
+use super::{GpuBuffer, GpuError, OpenDevice};
 
 /// A variable of group 0 that an entry point uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,7 +73,7 @@ impl Bound {
     /// The bind group for a pipeline's group 0.
     pub fn group(
         &self,
-        gpu: &Gpu,
+        gpu: &OpenDevice,
         layout: &wgpu::BindGroupLayout,
         uniforms: &GpuBuffer,
     ) -> Result<wgpu::BindGroup, GpuError> {
@@ -98,7 +98,7 @@ impl Bound {
         buffers().find(|(binding, buffer)| !writes(binding) && written(buffer)).map(|(binding, _)| &*binding.name)
     }
 
-    fn check_size(&self, gpu: &Gpu, binding: &KernelBinding, resource: &Resource) -> Result<(), GpuError> {
+    fn check_size(&self, gpu: &OpenDevice, binding: &KernelBinding, resource: &Resource) -> Result<(), GpuError> {
         let Resource::Buffer(buffer, range) = resource else { return Ok(()) };
         let limit = match binding.kind {
             BindingKind::Uniform => gpu.limits.max_uniform_buffer_binding_size,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use bytemuck::Pod;
 
 use super::memory::Reserved;
-use super::{Gpu, GpuError};
+use super::{GpuError, OpenDevice};
 
 /// No binding is smaller, so that an empty array still holds one element of 16 bytes.
 const MIN_BYTES: u64 = 16;
@@ -47,7 +47,7 @@ impl GpuBuffer {
     }
 }
 
-impl Gpu {
+impl OpenDevice {
     /// A zeroed buffer; `STORAGE | COPY_SRC | COPY_DST` come by themselves.
     pub fn buffer(&self, label: &str, bytes: u64, usage: wgpu::BufferUsages) -> Result<GpuBuffer, GpuError> {
         let buffer = self.uncounted_buffer(label, bytes, usage)?;

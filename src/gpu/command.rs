@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 
 use super::cost::{Cost, KernelTiming};
-use super::lock;
+use super::lock::lock;
 use super::recorder::Command;
 
 /// Clearing and copying, cautiously.

@@ -1,52 +1,44 @@
-//! Opening a device, and noticing when it fails.
+//! An open device: what it is, what lives on it, and what goes wrong on it.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
-use super::reflect::causes;
-use super::{Counters, Gpu, GpuError, Shaders, lock};
+use super::GpuError;
+use super::lock::lock;
+use super::memory::{BufferUse, Memory, Reserved};
 
 /// Older ones end a shader's loops after 65 535 iterations without a word.
 const MIN_MESA_MAJOR: u32 = 24;
 
 /// What the device said outside of any call that waits for an answer.
 #[derive(Debug, Default)]
-pub(super) struct Health {
+struct Health {
     lost: Mutex<Option<String>>,
     error: Mutex<Option<String>>,
 }
 
-impl Gpu {
-    /// A device without a window: the best adapter, or the first whose name contains
-    /// `adapter_name` (case does not matter).
-    pub fn headless(shaders: &'static Shaders, adapter_name: Option<&str>) -> Result<Self, GpuError> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
-        let adapter = &Self::choose_adapter(adapters, adapter_name)?;
-        let descriptor = Self::device_descriptor(adapter);
-        let opened = pollster::block_on(adapter.request_device(&descriptor));
-        let (device, queue) =
-            opened.map_err(|error| GpuError::NoDevice { adapter: adapter.get_info().name, cause: causes(&error) })?;
-        Ok(Self::from_wgpu(shaders, adapter, device, queue))
-    }
+/// What was done since the start; a plan is checked against the differences.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Recorded passes that ran, by kernel name, however many slices each took.
+    pub dispatches: BTreeMap<String, u64>,
+    pub pipelines: u64,
+    pub buffers: u64,
+}
 
-    /// The best of these adapters, or the first whose name contains `name` (case does not matter).
-    pub fn choose_adapter(mut adapters: Vec<wgpu::Adapter>, name: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
-        adapters.retain(|adapter| {
-            adapter.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS)
-        });
-        adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
-        choose(&adapters, name).cloned()
-    }
+/// All that needs no kernel.
+pub struct OpenDevice {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    pub info: wgpu::AdapterInfo,
+    pub limits: wgpu::Limits,
+    memory: Memory,
+    counters: Mutex<Counters>,
+    health: Arc<Health>,
+}
 
-    /// Takes over a device that somebody else opened, best with [`Gpu::device_descriptor`].
-    pub fn from_wgpu(
-        shaders: &'static Shaders,
-        adapter: &wgpu::Adapter,
-        device: wgpu::Device,
-        queue: wgpu::Queue,
-    ) -> Self {
+impl OpenDevice {
+    pub(super) fn new(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let health = Arc::new(Health::default());
         let on_lost = Arc::clone(&health);
         device.set_device_lost_callback(move |reason, message| {
@@ -58,68 +50,19 @@ impl Gpu {
             log::error!("GPU: {cause}");
             *lock(&on_error.error) = Some(cause);
         }));
-        Self {
-            info: adapter.get_info(),
-            limits: device.limits(),
-            device,
-            queue,
-            shaders,
-            default_workgroup_size: None,
-            replaced: BTreeMap::new(),
-            kernels: Mutex::default(),
-            raster_kernels: Mutex::default(),
-            registry: Arc::default(),
-            serial: AtomicU64::default(),
-            counters: Mutex::new(Counters::default()),
-            scratch: Mutex::default(),
-            health,
-        }
+        let (memory, counters) = (Memory::default(), Mutex::default());
+        Self { info: adapter.get_info(), limits: device.limits(), device, queue, memory, counters, health }
     }
 
-    /// What the program asks of a device: wgpu's default limits, buffers and images as large as the
-    /// adapter allows, and timestamps where there are any.
-    pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
-        use wgpu::Features;
-        let timestamps = Features::TIMESTAMP_QUERY
-            | Features::TIMESTAMP_QUERY_INSIDE_ENCODERS
-            | Features::TIMESTAMP_QUERY_INSIDE_PASSES;
-        let offered = adapter.limits();
-        wgpu::DeviceDescriptor {
-            label: Some("octolume"),
-            required_features: adapter.features() & timestamps,
-            required_limits: wgpu::Limits {
-                max_buffer_size: offered.max_buffer_size,
-                max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
-                max_texture_dimension_2d: offered.max_texture_dimension_2d,
-                ..wgpu::Limits::default().or_worse_values_from(&offered)
-            },
-            ..Default::default()
-        }
-    }
-
-    /// Kernels that declare `WORKGROUP_SIZE` get this one, unless asked for another.
-    pub fn with_workgroup_size(mut self, threads: u32) -> Self {
-        self.default_workgroup_size = Some(threads);
-        self
-    }
-
-    /// Another on the same device, where `wgsl` stands for the compute kernel `shaders/PATH`: for trying a change.
-    /// Buffers and textures of each serve both.
-    pub fn with_shader(&self, path: &str, wgsl: &str) -> Self {
+    /// The same device, with nothing counted yet.
+    pub(super) fn counted_anew(&self) -> Self {
         Self {
             device: self.device.clone(),
             queue: self.queue.clone(),
             info: self.info.clone(),
             limits: self.limits.clone(),
-            shaders: self.shaders,
-            default_workgroup_size: self.default_workgroup_size,
-            replaced: BTreeMap::from([(path.to_owned(), wgsl.to_owned())]),
-            kernels: Mutex::default(),
-            raster_kernels: Mutex::default(),
-            registry: Arc::default(),
-            serial: AtomicU64::default(),
+            memory: Memory::default(),
             counters: Mutex::default(),
-            scratch: Mutex::default(),
             health: Arc::clone(&self.health),
         }
     }
@@ -140,7 +83,7 @@ impl Gpu {
         self.info.device_type == wgpu::DeviceType::Cpu
     }
 
-    /// The device is gone; a new [`Gpu`] is needed.
+    /// It is gone; a new [`super::Gpu`] is needed.
     pub fn is_lost(&self) -> bool {
         lock(&self.health.lost).is_some()
     }
@@ -197,38 +140,47 @@ impl Gpu {
     pub(super) fn refused(&self, what: &str, cause: &str) -> GpuError {
         GpuError::Refused { what: what.to_owned(), cause: cause.to_owned() }
     }
+
+    pub fn counters(&self) -> Counters {
+        lock(&self.counters).clone()
+    }
+
+    pub(super) fn counted(&self, count: impl FnOnce(&mut Counters)) {
+        count(&mut lock(&self.counters));
+    }
+
+    /// Live buffers and textures in the order they were made.
+    pub fn memory(&self) -> Vec<BufferUse> {
+        self.memory.uses()
+    }
+
+    /// Bytes of all of them.
+    pub fn bytes_in_use(&self) -> u64 {
+        self.memory.bytes()
+    }
+
+    /// From here on, what would bring them beyond so many bytes is refused; `None`: the device decides.
+    pub fn limit_memory(&self, bytes: Option<u64>) {
+        self.memory.limit(bytes);
+    }
+
+    /// Runs the call of wgpu that makes something of so many bytes; without memory for it the error says so.
+    pub(super) fn allocated<T>(&self, label: &str, bytes: u64, make: impl FnOnce() -> T) -> Result<T, GpuError> {
+        self.checked(label, make).map_err(|error| match error {
+            GpuError::Refused { cause, .. } => GpuError::OutOfMemory { label: label.to_owned(), bytes, cause },
+            error => error,
+        })
+    }
+
+    /// Counts in what is made next.
+    pub(super) fn reserve(&self, label: &str, bytes: u64) -> Result<Reserved, GpuError> {
+        self.memory.reserve(label, bytes)
+    }
 }
 
 /// wgpu indents what caused an error on lines of their own.
 fn one_line(error: &wgpu::Error) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// Real GPUs first, large ones before small ones.
-fn rank(info: &wgpu::AdapterInfo) -> (u8, bool) {
-    let kind = match info.device_type {
-        wgpu::DeviceType::DiscreteGpu => 0,
-        wgpu::DeviceType::IntegratedGpu => 1,
-        wgpu::DeviceType::VirtualGpu => 2,
-        wgpu::DeviceType::Other => 3,
-        wgpu::DeviceType::Cpu => 4,
-    };
-    (kind, info.backend == wgpu::Backend::Gl)
-}
-
-fn choose<'a>(adapters: &'a [wgpu::Adapter], name: Option<&str>) -> Result<&'a wgpu::Adapter, GpuError> {
-    let wanted = name.unwrap_or_default().to_lowercase();
-    let chosen = adapters.iter().find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted));
-    chosen.ok_or_else(|| {
-        let names: Vec<_> = adapters.iter().map(|adapter| format!("\"{}\"", adapter.get_info().name)).collect();
-        GpuError::NoAdapter {
-            wanted: name.map_or_else(String::new, |name| format!(" has \"{name}\" in its name")),
-            found: match names.len() {
-                0 => "install a Vulkan driver (Mesa 24 or newer, or the vendor's)".to_owned(),
-                _ => format!("there are: {}", names.join(", ")),
-            },
-        }
-    })
 }
 
 /// The 25 of "Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)".

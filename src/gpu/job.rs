@@ -13,10 +13,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use super::cost::{KernelTiming, PASS_NS};
+use super::lock::lock;
 use super::read_back::ReadBack;
 use super::recorder::{Command, Recorder};
 use super::scratch::{MAX_PIECES, Piece, Scratch};
-use super::{Gpu, GpuBuffer, GpuError, counts, encode, lock};
+use super::{Gpu, GpuBuffer, GpuError, counts, encode};
 
 /// A cut shorter than this part of the budget is not worth a submission's place.
 const MIN_PART_OF_BUDGET: f64 = 0.1;
@@ -182,7 +183,7 @@ impl Job {
     fn submit(&mut self, gpu: &Gpu, pieces: Vec<Piece>) -> Result<(), GpuError> {
         let mut scratch = match self.scratch.take() {
             Some(scratch) => scratch,
-            None => Scratch::take(gpu, &self.recorder.uniforms)?,
+            None => Scratch::take(gpu, &gpu.scratch, &self.recorder.uniforms)?,
         };
         let reads = if self.is_cut_up() { &*self.wanted_back } else { &[] };
         let (took_ns, read_back) = encode::submit(gpu, &self.recorder.commands, &pieces, reads, &mut scratch)?;

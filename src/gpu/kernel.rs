@@ -11,7 +11,7 @@ use super::bindings::KernelBinding;
 use super::cost::Cost;
 use super::reflect::{ENTRY, overrides, parse, used_bindings, workgroup_size};
 use super::shaders::Source;
-use super::{Gpu, GpuError};
+use super::{GpuError, OpenDevice};
 
 /// A compiled kernel, or the reason it is none: [`super::Job`] reports that when it should run it.
 #[derive(Debug)]
@@ -29,9 +29,15 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    pub(super) fn compile(gpu: &Gpu, source: Result<Source, GpuError>, name: &str, constants: &[(&str, f64)]) -> Self {
+    /// `default_size`: of kernels that leave their workgroup size open.
+    pub(super) fn compile(
+        gpu: &OpenDevice,
+        source: Result<Source, GpuError>,
+        name: &str,
+        (constants, default_size): (&[(&str, f64)], Option<u32>),
+    ) -> Self {
         let compiled = source.and_then(|source| {
-            let reflection = Reflection::of(&source, constants, gpu.default_workgroup_size)?;
+            let reflection = Reflection::of(&source, constants, default_size)?;
             let pipeline = create_pipeline(gpu, &source, &reflection.constants)?;
             Ok((reflection, pipeline))
         });
@@ -76,7 +82,11 @@ impl Reflection {
     }
 }
 
-fn create_pipeline(gpu: &Gpu, source: &Source, constants: &[(String, f64)]) -> Result<wgpu::ComputePipeline, GpuError> {
+fn create_pipeline(
+    gpu: &OpenDevice,
+    source: &Source,
+    constants: &[(String, f64)],
+) -> Result<wgpu::ComputePipeline, GpuError> {
     let constants: Vec<_> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     gpu.counted(|counters| counters.pipelines += 1);
     gpu.checked(&source.path, || {

@@ -21,8 +21,10 @@ mod encode_raster;
 mod error;
 mod job;
 mod kernel;
+mod lock;
 mod memory;
 mod mirror;
+mod opening;
 mod pass;
 mod raster;
 mod read_back;
@@ -34,8 +36,8 @@ mod shaders;
 mod texture;
 
 use std::collections::{BTreeMap, HashMap};
-use std::sync::atomic::AtomicU64;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::ops::Deref;
+use std::sync::{Arc, Mutex};
 
 pub use bindings::{BindingKind, KernelBinding};
 pub use buffer::GpuBuffer;
@@ -43,6 +45,7 @@ pub(crate) use constant::constants;
 pub use constant::{Constant, Number};
 pub use cost::KernelTiming;
 pub use counted::Counted;
+pub use device::{Counters, OpenDevice};
 pub use encode::{MIRRORS, Threads};
 pub use error::GpuError;
 pub use job::{Job, JobState};
@@ -58,37 +61,30 @@ pub use reflect::parse;
 pub use shaders::{Shaders, Source};
 pub use texture::GpuTexture;
 
-use device::Health;
+use lock::lock;
 
-/// One device, what was compiled for it and what lives on it.
+/// One device, and what was compiled for it.
 pub struct Gpu {
-    pub device: wgpu::Device,
-    pub queue: wgpu::Queue,
-    pub info: wgpu::AdapterInfo,
-    pub limits: wgpu::Limits,
+    open: OpenDevice,
     shaders: &'static Shaders,
     default_workgroup_size: Option<u32>,
     /// Texts that stand for files of `shaders/`.
     replaced: BTreeMap<String, String>,
     kernels: Mutex<HashMap<KernelKey, Arc<Kernel>>>,
     raster_kernels: Mutex<HashMap<(&'static str, &'static str), Arc<RasterKernel>>>,
-    registry: memory::Registry,
-    serial: AtomicU64,
-    counters: Mutex<Counters>,
     scratch: Mutex<Vec<scratch::Scratch>>,
-    health: Arc<Health>,
 }
 
 /// Path and overrides (as bits, which are comparable).
 type KernelKey = (String, Vec<(String, u64)>);
 
-/// What was done since the start; a plan is checked against the differences.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// Recorded passes that ran, by kernel name, however many slices each took.
-    pub dispatches: BTreeMap<String, u64>,
-    pub pipelines: u64,
-    pub buffers: u64,
+/// What needs no kernel, the device does itself.
+impl Deref for Gpu {
+    type Target = OpenDevice;
+
+    fn deref(&self) -> &OpenDevice {
+        &self.open
+    }
 }
 
 impl Gpu {
@@ -99,7 +95,7 @@ impl Gpu {
         let mut kernels = lock(&self.kernels);
         let kernel = kernels.entry((path.to_owned(), overrides)).or_insert_with(|| {
             let name = path.trim_end_matches(".wgsl");
-            Arc::new(Kernel::compile(self, self.source(path), name, constants))
+            self.compile(self.source(path), name, constants)
         });
         Arc::clone(kernel)
     }
@@ -110,19 +106,23 @@ impl Gpu {
 
     /// A kernel from text, which may import files of `shaders/`. Not cached.
     pub fn kernel_from_source(&self, name: &str, wgsl: &str, constants: &[(&str, f64)]) -> Arc<Kernel> {
-        Arc::new(Kernel::compile(self, self.shaders.inline(name, wgsl), name, constants))
+        self.compile(self.shaders.inline(name, wgsl), name, constants)
     }
 
-    pub fn counters(&self) -> Counters {
-        lock(&self.counters).clone()
+    fn compile(&self, source: Result<Source, GpuError>, name: &str, constants: &[(&str, f64)]) -> Arc<Kernel> {
+        Arc::new(Kernel::compile(self, source, name, (constants, self.default_workgroup_size)))
     }
 
-    fn counted(&self, count: impl FnOnce(&mut Counters)) {
-        count(&mut lock(&self.counters));
+    /// The triangle shaders of `shaders/PATH`: vertex entry point `vertex`, fragment entry point
+    /// `fragment`. Compiled on first need.
+    pub fn raster_kernel(
+        &self,
+        path: &'static str,
+        vertex: &'static str,
+        colors: &[wgpu::TextureFormat],
+    ) -> Arc<RasterKernel> {
+        let mut kernels = lock(&self.raster_kernels);
+        let compile = || RasterKernel::compile(self, self.shaders.embedded(path), path, (vertex, colors));
+        Arc::clone(kernels.entry((path, vertex)).or_insert_with(|| Arc::new(compile())))
     }
-}
-
-/// A panic in another thread leaves these plain collections usable.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -3,7 +3,7 @@
 //! Vertices are read from storage buffers by number, so a draw binds by name like any kernel.
 //! Depth is reversed: 1 is near, 0 is nothing.
 
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use wgpu::naga;
 
@@ -11,7 +11,7 @@ use super::bindings::KernelBinding;
 use super::cost::Cost;
 use super::reflect::{parse, used_bindings};
 use super::shaders::Source;
-use super::{Gpu, GpuError, lock};
+use super::{GpuError, OpenDevice};
 
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 pub(super) const LABEL: &str = "triangles";
@@ -36,31 +36,23 @@ pub struct RasterTarget {
     pub depth: wgpu::TextureView,
 }
 
-impl Gpu {
-    /// The triangle shaders of `shaders/PATH`: vertex entry point `vertex`, fragment entry point
-    /// `fragment`. Compiled on first need.
-    pub fn raster_kernel(
-        &self,
-        path: &'static str,
-        vertex: &'static str,
-        colors: &[wgpu::TextureFormat],
-    ) -> Arc<RasterKernel> {
-        let mut kernels = lock(&self.raster_kernels);
-        let kernel = kernels.entry((path, vertex)).or_insert_with(|| Arc::new(compile(self, path, vertex, colors)));
-        Arc::clone(kernel)
+impl RasterKernel {
+    pub(super) fn compile(
+        gpu: &OpenDevice,
+        source: Result<Source, GpuError>,
+        path: &str,
+        (vertex, colors): (&str, &[wgpu::TextureFormat]),
+    ) -> Self {
+        let compiled = source.and_then(|source| {
+            let bindings = reflect(&source, vertex)?;
+            Ok((bindings, create_pipeline(gpu, &source, vertex, colors)?))
+        });
+        let (bindings, pipeline) = match compiled {
+            Ok((bindings, pipeline)) => (bindings, Ok(pipeline)),
+            Err(error) => (Vec::new(), Err(error)),
+        };
+        Self { name: path.trim_end_matches(".wgsl").to_owned(), bindings, pipeline, cost: Mutex::default() }
     }
-}
-
-fn compile(gpu: &Gpu, path: &str, vertex: &str, colors: &[wgpu::TextureFormat]) -> RasterKernel {
-    let compiled = gpu.shaders.embedded(path).and_then(|source| {
-        let bindings = reflect(&source, vertex)?;
-        Ok((bindings, create_pipeline(gpu, &source, vertex, colors)?))
-    });
-    let (bindings, pipeline) = match compiled {
-        Ok((bindings, pipeline)) => (bindings, Ok(pipeline)),
-        Err(error) => (Vec::new(), Err(error)),
-    };
-    RasterKernel { name: path.trim_end_matches(".wgsl").to_owned(), bindings, pipeline, cost: Mutex::default() }
 }
 
 fn reflect(source: &Source, vertex: &str) -> Result<Vec<KernelBinding>, GpuError> {
@@ -76,7 +68,7 @@ fn reflect(source: &Source, vertex: &str) -> Result<Vec<KernelBinding>, GpuError
 }
 
 fn create_pipeline(
-    gpu: &Gpu,
+    gpu: &OpenDevice,
     source: &Source,
     vertex: &str,
     colors: &[wgpu::TextureFormat],

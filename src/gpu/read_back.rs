@@ -3,7 +3,8 @@
 use std::ops::Range;
 use std::sync::{Arc, Mutex};
 
-use super::{Gpu, GpuBuffer, GpuError, lock};
+use super::lock::lock;
+use super::{GpuBuffer, GpuError, OpenDevice};
 
 const LABEL: &str = "read-back";
 /// The least that a mapping holds.
@@ -22,7 +23,7 @@ impl ReadBack {
     /// Encodes the copies; [`Self::map`] must follow once they are submitted. Ranges are whole words inside
     /// their buffers.
     pub fn encode(
-        gpu: &Gpu,
+        gpu: &OpenDevice,
         encoder: &mut wgpu::CommandEncoder,
         reads: &[(GpuBuffer, Range<u64>)],
     ) -> Result<Self, GpuError> {
@@ -52,7 +53,7 @@ impl ReadBack {
     }
 
     /// The bytes of each read once they are here, else `None`; who polls the device lets them come.
-    pub fn take(&self, gpu: &Gpu) -> Result<Option<Vec<Vec<u8>>>, GpuError> {
+    pub fn take(&self, gpu: &OpenDevice) -> Result<Option<Vec<Vec<u8>>>, GpuError> {
         let Some(answer) = lock(&self.answer).clone() else { return Ok(None) };
         answer.map_err(|cause| gpu.refused(LABEL, &cause))?;
         let view = self.staging.get_mapped_range(..).map_err(|error| gpu.refused(LABEL, &error.to_string()))?;

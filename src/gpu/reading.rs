@@ -5,12 +5,12 @@ use std::ops::Range;
 use bytemuck::Pod;
 
 use super::read_back::ReadBack;
-use super::{Gpu, GpuBuffer, GpuError};
+use super::{GpuBuffer, GpuError, OpenDevice};
 
 /// A read goes through staging buffers of at most this size.
 const READ_CHUNK_BYTES: u64 = 32 << 20;
 
-impl Gpu {
+impl OpenDevice {
     /// Blocks until all submitted work is done and the bytes are here.
     pub fn read<T: Pod>(&self, buffer: &GpuBuffer, range_bytes: Range<u64>) -> Result<Vec<T>, GpuError> {
         buffer.checked("read", range_bytes.clone(), 4)?;
@@ -55,7 +55,7 @@ pub struct PendingRead(ReadBack);
 
 impl PendingRead {
     /// The bytes once they are here, else `None`; never blocks.
-    pub fn take(&self, gpu: &Gpu) -> Result<Option<Vec<u8>>, GpuError> {
+    pub fn take(&self, gpu: &OpenDevice) -> Result<Option<Vec<u8>>, GpuError> {
         gpu.poll()?;
         Ok(self.0.take(gpu)?.and_then(|mut reads| reads.pop()))
     }

@@ -1,9 +1,12 @@
 //! What a job needs beside its recording: pieces of commands, buffers and queries.
 
+use std::sync::Mutex;
+
 use wgpu_profiler::{GpuProfiler, GpuProfilerQuery, GpuProfilerSettings};
 
+use super::lock::lock;
 use super::recorder::UNIFORM_ALIGNMENT;
-use super::{Gpu, GpuBuffer, GpuError, lock};
+use super::{GpuBuffer, GpuError, OpenDevice};
 
 /// Thread ranges of a slice have this many places.
 pub(super) const MAX_PIECES: usize = 256;
@@ -28,11 +31,11 @@ pub(super) struct Scratch {
 }
 
 impl Scratch {
-    /// One that is free, or a new one; holds these uniforms then.
-    pub fn take(gpu: &Gpu, uniforms: &[u8]) -> Result<Self, GpuError> {
+    /// One of those that are free, or a new one; holds these uniforms then.
+    pub fn take(gpu: &OpenDevice, free: &Mutex<Vec<Self>>, uniforms: &[u8]) -> Result<Self, GpuError> {
         let bytes = uniforms.len() as u64;
         let free = {
-            let mut free = lock(&gpu.scratch);
+            let mut free = lock(free);
             let fitting = free.iter().position(|scratch| scratch.uniforms.bytes() >= bytes);
             fitting.map(|index| free.swap_remove(index))
         };
@@ -44,7 +47,7 @@ impl Scratch {
         Ok(scratch)
     }
 
-    fn create(gpu: &Gpu, uniform_bytes: u64) -> Result<Self, GpuError> {
+    fn create(gpu: &OpenDevice, uniform_bytes: u64) -> Result<Self, GpuError> {
         let usage = wgpu::BufferUsages::UNIFORM;
         let range_bytes = (MAX_PIECES * UNIFORM_ALIGNMENT) as u64;
         let timestamps = gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::memory::Reserved;
-use super::{Gpu, GpuError};
+use super::{GpuError, OpenDevice};
 
 /// A shared handle to a 2-D texture and its full view.
 #[derive(Clone, Debug)]
@@ -31,8 +31,8 @@ impl GpuTexture {
     }
 }
 
-impl Gpu {
-    /// A texture, listed in [`Gpu::memory`] while it lives.
+impl OpenDevice {
+    /// A texture, listed in [`OpenDevice::memory`] while it lives.
     pub fn texture(&self, descriptor: &wgpu::TextureDescriptor<'_>) -> Result<GpuTexture, GpuError> {
         let label = descriptor.label.unwrap_or_default();
         let (size, limit) = (descriptor.size, self.limits.max_texture_dimension_2d);

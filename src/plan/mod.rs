@@ -17,6 +17,8 @@ mod keys;
 mod light;
 mod part;
 mod pass;
+mod planned;
+mod row;
 mod rows;
 mod rules;
 mod surfaces;
@@ -24,8 +26,6 @@ mod views;
 mod voxels;
 
 use std::collections::BTreeSet;
-
-use serde::Serialize;
 
 use crate::digest::Digest;
 
@@ -37,50 +37,10 @@ pub use keys::Keys;
 pub use light::makes_shadow_maps;
 pub use part::Part;
 pub use pass::Pass;
-pub use rows::{Row, State};
+pub use planned::{FramePlan, PlannedPart};
+pub use row::{Row, State};
 pub use views::{light_shown, shows_light, tells_mean_light};
-pub use voxels::{builds_octree, layout_of};
-
-/// A part that a frame makes.
-#[derive(Clone, Debug)]
-pub struct PlannedPart {
-    pub part: Part,
-    pub key: Key,
-    /// The first method that calls for it, by number in the request.
-    pub method: usize,
-}
-
-#[derive(Clone, Debug, Default, Serialize)]
-#[serde(transparent)]
-pub struct FramePlan {
-    pub rows: Vec<Row>,
-    #[serde(skip)]
-    to_run: Vec<PlannedPart>,
-    #[serde(skip)]
-    keys: Vec<Keys>,
-}
-
-impl FramePlan {
-    /// Whether a pass runs for any method.
-    pub fn runs(&self, pass: Pass) -> bool {
-        self.rows.iter().any(|row| row.pass == pass && row.state == State::Run)
-    }
-
-    /// No part runs: no dispatch, no repaint.
-    pub fn is_idle(&self) -> bool {
-        self.to_run.is_empty()
-    }
-
-    /// What a frame makes, in flow order, each part once however many methods share it.
-    pub fn to_run(&self) -> &[PlannedPart] {
-        &self.to_run
-    }
-
-    /// What every part of a method is made from; by the method's number in the request.
-    pub fn keys(&self) -> &[Keys] {
-        &self.keys
-    }
-}
+pub use voxels::builds_octree;
 
 /// Decides a frame. Pure: the same arguments give the same plan. The first method is the one that is shown.
 pub fn plan(methods: &[Asked], held: &Held) -> FramePlan {

@@ -1,28 +1,7 @@
 //! A plan, printed: one row a pass and method.
 
-use serde::Serialize;
-
 use super::keys::Keys;
-use super::{Asked, Held, Part, Pass, PlannedPart, light, surfaces, views, voxels};
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum State {
-    Run,
-    /// The last result still holds.
-    Reuse,
-    /// Nothing in the scene, or nobody looking, calls for it.
-    Skip,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Row {
-    /// Number in the request; 0 is what is shown. Of the others only what they do not share.
-    pub method: usize,
-    pub pass: Pass,
-    pub state: State,
-    pub reason: &'static str,
-}
+use super::{Asked, Held, Part, Pass, PlannedPart, Row, State, light, surfaces, views, voxels};
 
 type Verdict = (State, &'static str);
 

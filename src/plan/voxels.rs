@@ -3,7 +3,6 @@
 use super::effects::{ConesAsked, marches_shadows};
 use super::keys::{Keys, Wanted};
 use super::{Asked, Key, KeyBuilder, Part, Pass, WantedFor};
-use crate::data::octree::PointerLayout;
 use crate::settings::{ColorBy, Filter, Lookup, View};
 
 /// Why no octree is called for, if so.
@@ -111,11 +110,6 @@ pub(super) fn lookup(asked: &Asked) -> Lookup {
         View::Surfaces if ConesAsked::new(asked).any() => asked.settings.method.cone_tracing.lookup,
         View::Surfaces | View::Voxels | View::Mesh | View::Ghost | View::ShadowMap => Lookup::Ranks,
     }
-}
-
-/// The layout that a part of pointers has.
-pub fn layout_of(part: Part) -> PointerLayout {
-    if part == Part::NodeLinks { PointerLayout::Nodes } else { PointerLayout::Blocks }
 }
 
 /// The window draws and follows pointers of this part.

@@ -1,14 +1,13 @@
 //! Finds or makes the voxel caches of a scene: from the preparation before, from the disk, or by
 //! voxelizing (section 3.1). In parallel, cancellable; an object is looked for only once.
 
-use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
 use super::kept::{Kept, TextureHashes};
-use super::{PrepareError, Prepared, PreparedObject, lattice};
+use super::{CacheOrigins, PrepareError, Prepared, PreparedObject, lattice};
 use crate::data::voxel_cache::VoxelCache;
 use crate::disk_cache::{ContentKey, DiskCache};
 use crate::progress::Progress;
@@ -22,18 +21,6 @@ pub struct Stores<'a> {
     /// Of the same scene; of any other nothing is taken.
     pub reuse: Option<&'a Prepared>,
     pub disk: Option<&'a DiskCache>,
-}
-
-/// How many caches came from where.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct CacheOrigins {
-    pub voxelized: usize,
-    /// Taken over from the preparation before.
-    pub kept: usize,
-    /// Read from the disk.
-    pub read: usize,
-    /// Of those voxelized, how many replace a damaged entry on the disk.
-    pub replaced: usize,
 }
 
 /// A cache to find or make.
@@ -180,19 +167,6 @@ impl<'a> CacheSearch<'a> {
             mode: self.mode,
             with_joints: matches!(object.object.motion, Motion::Skinned { .. }),
         }
-    }
-}
-
-/// "voxelized 0 objects, 398 read from the disk cache".
-impl fmt::Display for CacheOrigins {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { voxelized, kept, read, replaced } = *self;
-        write!(f, "voxelized {voxelized} object{}", if voxelized == 1 { "" } else { "s" })?;
-        if replaced > 0 {
-            write!(f, " ({replaced} in place of damaged entries)")?;
-        }
-        write!(f, ", {read} read from the disk cache")?;
-        if kept > 0 { write!(f, ", {kept} kept") } else { Ok(()) }
     }
 }
 

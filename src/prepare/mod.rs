@@ -6,6 +6,7 @@ mod caches;
 mod clips;
 mod emission;
 mod enclose;
+mod error;
 mod exact;
 mod fold;
 mod framing;
@@ -13,104 +14,33 @@ mod hidden;
 pub mod kept;
 mod lattice;
 mod lights;
+mod origins;
+mod placing;
 mod preparation;
+mod prepared;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
 use self::kept::TextureHashes;
-use crate::data::grid::Grid;
-use crate::data::voxel_cache::{Tile, VoxelCache};
-use crate::progress::{Cancelled, Progress};
-use crate::scene::bounds::Aabb;
-use crate::scene::{Motion, Object, Scene, Warning};
-use crate::settings::{VisibilityError, VoxelizationMode};
-use crate::stages::voxelize::{TexturePyramids, VoxelizeError};
+use crate::data::voxel_cache::VoxelCache;
+use crate::progress::Progress;
+use crate::scene::{Motion, Scene};
+use crate::stages::voxelize::TexturePyramids;
 
-pub use caches::{CacheOrigins, Stores};
+pub use caches::Stores;
 use caches::{CacheSearch, CacheToFind};
+pub use error::PrepareError;
 pub use exact::{ExactError, ExactSurface, ExactVoxel, ExactVoxels};
 pub use fold::{FrameMatrices, MotionError};
 pub use lattice::Lattice;
 pub use lights::LightsError;
+pub use origins::CacheOrigins;
+use placing::{grid_around, tile_extent, visible_objects};
 pub use preparation::Preparation;
-
-/// A scene made ready for a grid. Immutable; shared by window, engine and background work.
-#[derive(Debug)]
-pub struct Prepared {
-    pub scene: Arc<Scene>,
-    pub textures: Arc<TexturePyramids>,
-    pub grid: Grid,
-    pub mode: VoxelizationMode,
-    pub objects: Vec<PreparedObject>,
-    pub caches: Vec<Arc<VoxelCache>>,
-    /// Where the caches came from.
-    pub origins: CacheOrigins,
-    /// Every tile of every object, rigid ones first, then skinned: the unit of Object I-O.
-    pub parts: Vec<PreparedPart>,
-    /// Largest channel of any voxel's emission, nits; 0 where nothing emits.
-    pub brightest_emission: f32,
-    /// What it was made for.
-    pub preparation: Preparation,
-    /// What the grid encloses or is centred on; `None` where there is nothing to see.
-    pub bounds: Option<Aabb>,
-    /// The scene's posed bounds at rest and over all its clips, wherever the grid is.
-    pub reach: Option<Aabb>,
-    pub warnings: Vec<Warning>,
-    pub voxelize_ms: f64,
-    keys: Vec<CacheKey>,
-    texture_hashes: Arc<TextureHashes>,
-}
-
-#[derive(Clone, Debug)]
-pub struct PreparedObject {
-    pub object: Object,
-    /// Into [`Prepared::caches`].
-    pub cache: usize,
-    pub lattice: Lattice,
-}
-
-/// One tile of an object's cache.
-#[derive(Clone, Debug)]
-pub struct PreparedPart {
-    /// Into [`Prepared::objects`].
-    pub object: usize,
-    pub tile: Tile,
-    /// Largest position in the tile, plus one, per axis: with `tile.origin` its box in cells.
-    pub extent_cells: glam::IVec3,
-    /// Joints that move any of its voxels; none where it is rigid.
-    pub joints: Vec<usize>,
-}
-
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PrepareError {
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-    #[error(transparent)]
-    Motion(#[from] MotionError),
-    #[error(transparent)]
-    Visibility(#[from] VisibilityError),
-    #[error("{scene}: object \"{object}\" cannot be voxelized: {cause}")]
-    Object { scene: String, object: String, cause: VoxelizeError },
-    #[error("the span is {0}; it must be a positive, finite number of scene units")]
-    Span(f64),
-    #[error(
-        "{scene}: at a span of {span} it is {cells:.3e} cells wide, and {limit} is the limit; choose a larger span"
-    )]
-    TooWide { scene: String, span: f64, cells: f64, limit: f64 },
-    #[error("the grid has {0} cells along an axis; it must be 64, 128, 256, 512 or 1024")]
-    Grid(u32),
-}
-
-/// What a cache's content depends on, apart from the scene, span and mode common to all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct CacheKey {
-    mesh: usize,
-    skinned: bool,
-    on_grid: bool,
-    lattice: [u64; 16],
-}
+use prepared::CacheKey;
+pub use prepared::{Prepared, PreparedObject, PreparedPart};
 
 /// Voxelizes every object of `scene` once. Caches of `reuse` that still fit are taken over. Nothing
 /// is read from or written to the disk.
@@ -135,12 +65,12 @@ pub fn prepare_with(
     let discretization = &preparation.discretization;
     let clip = clips::clip_index(&scene, &preparation.motion)?;
     let (bounds, left_out) = enclose::enclosed(&scene, &preparation, clip)?;
-    let grid = lattice::grid_around(&scene.name, bounds, discretization)?;
+    let grid = grid_around(&scene.name, bounds, discretization)?;
     let motion = scene.motion_report(grid.span, clip);
     let mut warnings = scene.warnings.clone();
     warnings.extend(left_out);
     warnings.extend(motion.warnings());
-    let (mut objects, shared) = lattice::visible_objects(&scene, &grid, motion);
+    let (mut objects, shared) = visible_objects(&scene, &grid, motion);
     warnings.extend(shared);
     let (keys, first_users) = number_caches(&mut objects);
     let mode = discretization.mode;
@@ -183,32 +113,6 @@ pub fn prepare_with(
     })
 }
 
-impl Prepared {
-    fn cache(&self, key: &CacheKey) -> Option<Arc<VoxelCache>> {
-        let index = self.keys.iter().position(|old| old == key)?;
-        Some(Arc::clone(&self.caches[index]))
-    }
-
-    /// What the scene's textures hold.
-    pub fn texture_hashes(&self) -> &TextureHashes {
-        &self.texture_hashes
-    }
-
-    /// Voxels of all objects, whether in the grid or not.
-    pub fn voxel_count(&self) -> u64 {
-        self.parts.iter().map(|part| part.tile.voxels.len() as u64).sum()
-    }
-
-    /// Rigid parts come first, with one matrix each.
-    pub fn rigid_parts(&self) -> usize {
-        self.parts.iter().take_while(|part| !self.is_skinned(part)).count()
-    }
-
-    pub fn is_skinned(&self, part: &PreparedPart) -> bool {
-        matches!(self.objects[part.object].object.motion, Motion::Skinned { .. })
-    }
-}
-
 /// Gives equal geometry on equal lattices one cache; returns their keys and a first object of each.
 fn number_caches(objects: &mut [PreparedObject]) -> (Vec<CacheKey>, Vec<usize>) {
     let mut numbers: HashMap<CacheKey, usize> = HashMap::new();
@@ -242,7 +146,7 @@ fn list_parts(objects: &[PreparedObject], caches: &[Arc<VoxelCache>]) -> Vec<Pre
             parts.extend(cache.tiles.iter().map(|tile| PreparedPart {
                 object: index,
                 tile: tile.clone(),
-                extent_cells: lattice::tile_extent(cache, tile),
+                extent_cells: tile_extent(cache, tile),
                 joints: if skinned { fold::used_joints(cache, tile) } else { Vec::new() },
             }));
         }

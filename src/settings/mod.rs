@@ -15,6 +15,7 @@ mod method;
 mod motion;
 mod node_names;
 mod shot;
+mod view;
 mod visibility;
 
 pub use cone_tracing::ConeTracing;
@@ -23,13 +24,12 @@ pub use fit::{Fit, FitTo};
 pub use format::FORMAT;
 pub use light_names::{LightChange, LightError};
 pub use lighting::Lighting;
-pub use look::{
-    AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, SurfaceView, ToneCurve, View,
-};
+pub use look::{AlphaRule, ColorBy, Look, Lookup, Sampling, Slice, SliceAxis, SliceValue, ToneCurve};
 pub use method::MethodSettings;
 pub use motion::MotionSettings;
 pub use node_names::NodeNames;
 pub use shot::ShotSettings;
+pub use view::{SurfaceView, View};
 pub use visibility::{Hidden, Visibility, VisibilityError};
 
 /// What is looked at, and how it is computed.

@@ -2,7 +2,6 @@
 //! dispatch of `shaders/…/X.wgsl`, and `X_ref.rs` is its f64 reference, written from the paper.
 
 pub mod averaging;
-pub mod bench;
 pub mod build;
 pub mod compare;
 pub mod cones;

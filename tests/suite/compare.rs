@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use octolume::stages::bench::{copy, copy_ref};
+use octolume::experiment::bench::{copy, copy_ref};
 use octolume::stages::compare::compare_sets::{self, COUNT_WORDS};
 use octolume::stages::compare::compare_sets_ref::holes_spill_both;
 

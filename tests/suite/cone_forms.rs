@@ -1,12 +1,10 @@
 //! Cones from surfaces against closed forms: an open plane, a wall on a floor, a hole in a ceiling, a white
-//! furnace, a mirror. Tables by cone count with `--nocapture`; as JSON where `OCTOLUME_MEASURED` names a folder.
+//! furnace. Tables by cone count with `--nocapture`; as JSON where `OCTOLUME_MEASURED` names a folder.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use octolume::data::surface_image::SurfaceTexel;
-use octolume::scene::OrbitCamera;
 use octolume::settings::lighting::Opacity;
 use octolume::settings::{ConeTracing, Filter, Lookup};
 use octolume::stages::cones::diffuse::DiffuseCones;
@@ -15,9 +13,8 @@ use octolume::stages::pixels::LEAST_LIGHT;
 use octolume::stages::sample::Sampler;
 use serde::{Deserialize, Serialize};
 
-use crate::cone_gloss::reflected;
 use crate::cone_light::{BOTH, scattered};
-use crate::cone_rig::{NOTHING, Photo, SPOT_PX, diffuse, dull, mean, plane_distance, spot};
+use crate::cone_rig::{SPOT_PX, diffuse, mean, spot};
 use crate::device::gpu;
 use crate::doc_tables::measured;
 use crate::lit_octree::LitBuild;
@@ -26,10 +23,10 @@ use crate::random::ONE;
 use crate::stage_build::Shape;
 use crate::view_rig::grid;
 
-const DEPTH: u32 = 6;
-const CELLS: i64 = 64;
+pub const DEPTH: u32 = 6;
+pub const CELLS: i64 = 64;
 /// Lowest layer of the floor, which is one voxel thick.
-const FLOOR: i64 = 9;
+pub const FLOOR: i64 = 9;
 /// How near the known error of a form is met: half of the last place it is written with, LEAST_LIGHT that cones
 /// leave, and roundings of 256 places on a ray, 2^-24 of 64 cells each, where opacity changes by 3 a cell.
 const FORM_SLACK: f64 = 0.0005 + LEAST_LIGHT + 3.0 * 256.0 * 64.0 * f32::EPSILON as f64 / 2.0;
@@ -61,7 +58,7 @@ pub struct HoleRow {
 }
 
 /// A voxel in every cell of a box, `raise` 256ths of a cell higher.
-fn solid(low: [i64; 3], high: [i64; 3], raise: i64) -> impl Iterator<Item = Fragment> {
+pub fn solid(low: [i64; 3], high: [i64; 3], raise: i64) -> impl Iterator<Item = Fragment> {
     let size = [0, 1, 2].map(|axis| high[axis] - low[axis]);
     (0..size.iter().product()).map(move |i| {
         let [x, y, z] = [low[0] + i % size[0], low[1] + i / size[0] % size[1], low[2] + i / (size[0] * size[1])];
@@ -69,11 +66,11 @@ fn solid(low: [i64; 3], high: [i64; 3], raise: i64) -> impl Iterator<Item = Frag
     })
 }
 
-fn floor(raise: i64) -> impl Iterator<Item = Fragment> {
+pub fn floor(raise: i64) -> impl Iterator<Item = Fragment> {
     solid([0, 0, FLOOR], [CELLS, CELLS, FLOOR + 1], raise)
 }
 
-fn built(voxels: impl Iterator<Item = Fragment>, radiance: impl Fn(Cell) -> f64) -> LitBuild {
+pub fn built(voxels: impl Iterator<Item = Fragment>, radiance: impl Fn(Cell) -> f64) -> LitBuild {
     let voxels: Vec<_> = voxels.collect();
     LitBuild::new(gpu(), &voxels, &Shape::new(DEPTH, 4, Filter::Split), |cell, a| (DVec3::splat(radiance(cell)), a))
 }
@@ -240,33 +237,5 @@ fn constant_radiance_comes_back_whatever_is_occupied_how_much() {
             // Cones end with LEAST_LIGHT to go; each of some 60 steps rounds.
             assert!((f64::from(pixel[0]) - expected).abs() < 5.0 * (LEAST_LIGHT + 60.0 * 4.0 * 6e-8), "{pixel:?}");
         }
-    }
-}
-
-/// A spot on a floor that mirrors an eye's ray along `mirrored`.
-fn mirror(point: DVec3, mirrored: DVec3, roughness: f64) -> Photo {
-    let grid = grid(DEPTH);
-    let world = |cells: DVec3| grid.corner() + cells * grid.span;
-    let eye = world(point + 30.0 * DVec3::new(-mirrored.x, -mirrored.y, mirrored.z));
-    let camera = OrbitCamera { eye, target: world(point), fov_y_degrees: 0.001 };
-    Photo::new(gpu(), (&grid, &camera), [SPOT_PX; 2], |_, ray| {
-        plane_distance(ray, point, DVec3::Z)
-            .map_or(NOTHING, |distance| SurfaceTexel { roughness, ..dull(distance, DVec3::Z) })
-    })
-}
-
-#[test]
-fn a_mirror_shows_the_lit_wall_and_the_sky_above_it() {
-    const WALL: i64 = 40;
-    let walls = floor(0).chain(solid([WALL, 0, FLOOR], [WALL + 8, CELLS, WALL], 0));
-    let octree = built(walls, |cell| if i64::from(cell[0]) >= WALL { 7.0 } else { 0.0 });
-    let point = DVec3::new(20.0, 32.0, FLOOR as f64 + 0.5);
-    // Where the ray meets the wall's plane, in voxels above the floor; the wall ends at 30.
-    for (height, roughness, expected) in
-        [(12.0, 0.0, 7.0), (12.0, 0.2, 7.0), (20.0, 0.1, 7.0), (46.0, 0.0, 1.0), (52.0, 0.15, 1.0)]
-    {
-        let photo = mirror(point, DVec3::new(WALL as f64 - point.x, 0.0, height).normalize(), roughness);
-        let found = mean(&reflected(gpu(), &octree.sampled(Lookup::Ranks), &photo, &ConeTracing::default(), [1.0; 3]));
-        assert!((found[0] - expected).abs() < 0.02 * expected && found[3] == 1.0, "{height}, {roughness}: {found:?}");
     }
 }

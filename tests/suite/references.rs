@@ -11,22 +11,31 @@ use crate::shaders::programs;
 /// Paths below the repository, with `/`, and texts.
 type Files = BTreeMap<String, String>;
 
-/// What lacks, a sentence each. `shaders`: stage and name of each, and whether it is a kernel.
-fn lacking(shaders: &[(&str, &str, bool)], stages: &Files, tests: &Files) -> Vec<String> {
+/// Modules whose folders have shaders in folders of the same names.
+const HOMES: [&str; 2] = ["stages", "experiment"];
+
+/// What lacks, a sentence each. `shaders`: folder and name of each, and whether it is a kernel.
+fn lacking(shaders: &[(&str, &str, bool)], sources: &Files, tests: &Files) -> Vec<String> {
     let tests: Vec<TestFile> = tests.values().map(|text| TestFile::new(text)).collect();
     let mut lacking = Vec::new();
-    for (stage, name, is_kernel) in shaders {
-        let rust = format!("src/stages/{stage}/{name}.rs");
-        if !stages.contains_key(&rust) {
-            lacking.push(format!("{stage}/{name}.wgsl: no {rust}"));
+    for (folder, name, is_kernel) in shaders {
+        let has_folder = |home: &&str| sources.keys().any(|file| file.starts_with(&format!("src/{home}/{folder}/")));
+        let homes: Vec<&str> = HOMES.into_iter().filter(has_folder).collect();
+        let &[home] = &homes[..] else {
+            lacking.push(format!("{folder}/{name}.wgsl: {} of {HOMES:?} have a folder {folder}", homes.len()));
+            continue;
+        };
+        let rust = format!("src/{home}/{folder}/{name}.rs");
+        if !sources.contains_key(&rust) {
+            lacking.push(format!("{folder}/{name}.wgsl: no {rust}"));
         }
         if !is_kernel {
             continue;
         }
-        let file = format!("src/stages/{stage}/{name}_ref.rs");
-        let module = format!("octolume::stages::{stage}::{name}_ref");
-        match stages.get(&file) {
-            None => lacking.push(format!("{stage}/{name}.wgsl: no {file}")),
+        let file = format!("src/{home}/{folder}/{name}_ref.rs");
+        let module = format!("octolume::{home}::{folder}::{name}_ref");
+        match sources.get(&file) {
+            None => lacking.push(format!("{folder}/{name}.wgsl: no {file}")),
             Some(text) if !tests.iter().any(|test| test.calls(&module, text)) => {
                 lacking.push(format!("{file}: no test calls a function of it"));
             }
@@ -126,14 +135,15 @@ fn files_below(folder: &str) -> Files {
 fn every_shader_has_its_rust_file_and_every_kernel_a_reference_that_a_test_calls() {
     let programs: Vec<_> = programs().collect();
     let of = |(source, module, _): &'_ (octolume::gpu::Source, naga::Module, _)| {
-        let (stage, name) = source.path.trim_end_matches(".wgsl").split_once('/').expect("in a folder");
+        let (folder, name) = source.path.trim_end_matches(".wgsl").split_once('/').expect("in a folder");
         let is_kernel = module.entry_points.iter().any(|entry| entry.stage == naga::ShaderStage::Compute);
-        (stage.to_owned(), name.to_owned(), is_kernel)
+        (folder.to_owned(), name.to_owned(), is_kernel)
     };
     let shaders: Vec<_> = programs.iter().map(of).collect();
-    let shaders: Vec<_> = shaders.iter().map(|(stage, name, is)| (stage.as_str(), name.as_str(), *is)).collect();
+    let shaders: Vec<_> = shaders.iter().map(|(folder, name, is)| (folder.as_str(), name.as_str(), *is)).collect();
     assert!(shaders.iter().filter(|(.., is_kernel)| *is_kernel).count() > 30);
-    assert_eq!(lacking(&shaders, &files_below("src/stages"), &files_below("tests/suite")), [""; 0]);
+    let sources = HOMES.into_iter().flat_map(|home| files_below(&format!("src/{home}"))).collect();
+    assert_eq!(lacking(&shaders, &sources, &files_below("tests/suite")), [""; 0]);
 }
 
 #[test]
@@ -171,6 +181,14 @@ fn a_missing_file_and_a_reference_that_nothing_calls_are_named() {
     ] {
         assert_eq!(lacking(&shaders, &files(&stages), &files(&[tests[1], ("light.rs", light)])), [uncalled], "{light}");
     }
+    let copy = [("bench", "copy", true)];
+    let of_experiments =
+        [("src/experiment/bench/copy.rs", ""), ("src/experiment/bench/copy_ref.rs", "pub fn copy() {}")];
+    let called = files(&[("t.rs", "use octolume::experiment::bench::copy_ref;\nfn t() { copy_ref::copy(); }")]);
+    assert_eq!(lacking(&copy, &files(&of_experiments), &called), [""; 0]);
+    let twice = [&of_experiments[..], &[("src/stages/bench/mod.rs", "")]].concat();
+    assert_eq!(lacking(&copy, &files(&twice), &called).len(), 1, "of both");
+    assert_eq!(lacking(&copy, &files(&stages), &called).len(), 1, "of neither");
     // Nothing draws by a reference.
     assert_eq!(lacking(&[("light", "shadow", false)], &files(&stages), &files(&[])).len(), 1);
 }

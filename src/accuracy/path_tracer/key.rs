@@ -3,10 +3,11 @@
 //! Structs are taken apart field by field without `..`, so that a new field does not compile before
 //! somebody has decided whether paths read it.
 
+use super::TracedScene;
 use super::camera::CameraRays;
 use super::lights::Punctual;
+use super::options::{Options, PixelSampling, Reflection};
 use super::surface::SurfaceReader;
-use super::{Options, PixelSampling, Reflection, TracedScene};
 use crate::accuracy::posed_triangles::PosedSurface;
 use crate::accuracy::triangle::PosedTriangle;
 use crate::disk_cache::ContentKey;
@@ -16,32 +17,43 @@ use crate::scene::{AlphaMode, LightKind, Material, Primitive};
 /// Goes up with every change of what a path brings.
 const ALGORITHM_VERSION: u64 = 1;
 
-/// Of a scene ready to be traced.
-pub fn key(scene: &TracedScene) -> ContentKey {
-    let TracedScene { triangles, readers, punctual, emitters: _, sky_nits, occlusion_cells, rays, options, textures } =
-        scene;
-    let mut writer = ContentWriter::new(textures);
-    writer.number(ALGORITHM_VERSION);
-    let posed = triangles.tree().triangles();
-    writer.number(posed.len() as u64);
-    for PosedTriangle { corners, vertices, surface } in posed {
-        writer.list(corners);
-        writer.list(vertices);
-        writer.number(u64::from(*surface));
+impl TracedScene<'_> {
+    /// What a picture of it is kept by on disk.
+    pub fn key(&self) -> ContentKey {
+        let TracedScene {
+            triangles,
+            readers,
+            punctual,
+            emitters: _,
+            sky_nits,
+            occlusion_cells,
+            rays,
+            options,
+            textures,
+        } = self;
+        let mut writer = ContentWriter::new(textures);
+        writer.number(ALGORITHM_VERSION);
+        let posed = triangles.tree().triangles();
+        writer.number(posed.len() as u64);
+        for PosedTriangle { corners, vertices, surface } in posed {
+            writer.list(corners);
+            writer.list(vertices);
+            writer.number(u64::from(*surface));
+        }
+        writer.number(readers.len() as u64);
+        for (reader, surface) in readers.iter().zip(triangles.surfaces()) {
+            write_surface(&mut writer, reader, surface);
+        }
+        writer.number(punctual.len() as u64);
+        punctual.iter().for_each(|light| write_light(&mut writer, light));
+        writer.list(&sky_nits.to_array());
+        writer.list(&[*occlusion_cells]);
+        let CameraRays { eye, forward, right, up, near_cells, size_px: _ } = rays;
+        [eye, forward, right, up].into_iter().for_each(|vector| writer.list(&vector.to_array()));
+        writer.list(&[*near_cells]);
+        write_options(&mut writer, options);
+        writer.finish()
     }
-    writer.number(readers.len() as u64);
-    for (reader, surface) in readers.iter().zip(triangles.surfaces()) {
-        write_surface(&mut writer, reader, surface);
-    }
-    writer.number(punctual.len() as u64);
-    punctual.iter().for_each(|light| write_light(&mut writer, light));
-    writer.list(&sky_nits.to_array());
-    writer.list(&[*occlusion_cells]);
-    let CameraRays { eye, forward, right, up, near_cells, size_px: _ } = rays;
-    [eye, forward, right, up].into_iter().for_each(|vector| writer.list(&vector.to_array()));
-    writer.list(&[*near_cells]);
-    write_options(&mut writer, options);
-    writer.finish()
 }
 
 fn write_surface(writer: &mut ContentWriter, reader: &SurfaceReader, surface: &PosedSurface) {

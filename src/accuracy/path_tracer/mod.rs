@@ -16,6 +16,7 @@ mod film;
 mod kept;
 mod key;
 mod lights;
+mod options;
 mod path;
 mod sampler;
 mod surface;
@@ -27,9 +28,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 pub use film::{Film, PixelSums, StandardError, Term};
+pub use options::{Options, PixelSampling, Reflection};
 
 use super::posed_triangles::{PosedSurface, PosedTriangles};
-use crate::disk_cache::ContentKey;
 use crate::lights::posed_lights;
 use crate::prepare::kept::TextureHashes;
 use crate::prepare::{LightsError, Prepared};
@@ -40,42 +41,6 @@ use camera::CameraRays;
 use lights::{Emitters, Punctual};
 use sampler::Sampler;
 use surface::SurfaceReader;
-
-/// What settings leave open.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    pub size_px: [u32; 2],
-    pub seed: u64,
-    pub pixel: PixelSampling,
-    pub reflection: Reflection,
-}
-
-impl Options {
-    /// Comparable with a surface image of that size.
-    pub fn new(size_px: [u32; 2]) -> Self {
-        Self { size_px, seed: 0, pixel: PixelSampling::default(), reflection: Reflection::default() }
-    }
-}
-
-/// Where in a pixel rays go.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PixelSampling {
-    /// Through its centre, as the surface image has it.
-    #[default]
-    Centre,
-    /// Anywhere: edges are smooth.
-    Area,
-}
-
-/// What surfaces make of light.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Reflection {
-    /// glTF's metallic-roughness BRDF.
-    #[default]
-    MetallicRoughness,
-    /// The base colour of what arrives, every way alike, as leaves of the octree do.
-    Lambert,
-}
 
 /// All that paths need to know.
 pub struct TracedScene<'a> {
@@ -121,11 +86,6 @@ impl<'a> TracedScene<'a> {
     /// What is left out, a sentence each.
     pub fn warnings(&self) -> &[String] {
         &self.triangles.warnings
-    }
-
-    /// What a picture of it is kept by on disk.
-    pub fn key(&self) -> ContentKey {
-        key::key(self)
     }
 
     pub fn new_film(&self) -> Film {

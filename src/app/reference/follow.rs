@@ -9,6 +9,7 @@ use super::tracing::Run;
 use super::{Overlay, PARTS, Reference, Seen, Tracing};
 use crate::accuracy::picture_error::Display;
 use crate::app::background::{Background, Outcome};
+use crate::app::pace::PROGRESS_STEP;
 use crate::disk_cache::DiskCache;
 use crate::engine::{Engine, EngineError};
 use crate::settings::{ToneCurve, View};
@@ -49,7 +50,7 @@ impl Reference {
         }
         self.is_behind = self.work_on(ctx);
         if self.is_behind {
-            ctx.request_repaint_after(crate::app::PROGRESS_STEP);
+            ctx.request_repaint_after(PROGRESS_STEP);
         }
         collected
     }

@@ -12,6 +12,7 @@
 mod follow;
 mod latest;
 mod measuring;
+mod order;
 mod overlay;
 mod pictures;
 mod seen;
@@ -25,6 +26,7 @@ pub use self::follow::ShownSurfaces;
 use self::latest::Latest;
 pub use self::measuring::MeasuredPart;
 use self::measuring::{ConeParts, OfParts};
+pub use self::order::{Comparison, Order};
 use self::overlay::Overlay;
 use self::pictures::{ConePicture, OfPicture, Pictures};
 pub use self::seen::Seen;
@@ -32,32 +34,6 @@ use self::tracing::Tracing;
 pub use self::tracing::{PARTS, Traced};
 use crate::accuracy::path_tracer::Film;
 use crate::accuracy::picture_error::CompareError;
-
-/// What lies over the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Comparison {
-    /// Nothing: cones alone.
-    #[default]
-    Cones,
-    Paths,
-    /// Cones left of a divider, paths right of it.
-    Wipe,
-    /// Cones less paths.
-    Difference,
-}
-
-/// What a person does with the reference.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Order {
-    /// Traces the picture that is shown, or goes on with it.
-    Start,
-    Stop,
-    /// Samples a pixel to end with.
-    Samples(u32),
-    Compare(Comparison),
-    /// The divider's place, 0 left to 1 right.
-    Divide(f32),
-}
 
 pub struct Reference {
     /// Its panel is unfolded.

@@ -5,6 +5,7 @@ use crate::data::light::pack_emission;
 use crate::data::octree::NO_BLOCK;
 use crate::engine::EngineError;
 use crate::gpu::{GpuBuffer, Recorder};
+use crate::plan::Part;
 
 #[derive(Debug, Default)]
 pub struct Caches {
@@ -33,6 +34,8 @@ impl Caches {
 }
 
 impl Made for Caches {
+    const PART: Part = Part::Caches;
+
     fn record(&mut self, making: &Making<'_>, _: &Parts, _: &mut Recorder) -> Result<Option<Read>, EngineError> {
         let prepared = &making.request.prepared;
         let (mut voxels, mut joints, mut emission) = (Vec::new(), Vec::new(), Vec::new());

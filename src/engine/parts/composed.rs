@@ -1,5 +1,7 @@
 //! What is shown of the lit surfaces, in linear light, and what it is multiplied by.
 
+use super::cones::{DiffuseLight, SpecularLight};
+use super::surfaces::{DirectLight, surface_image};
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::Slot;
 use crate::engine::EngineError;
@@ -28,6 +30,8 @@ pub struct Exposure {
 }
 
 impl Made for ComposedLight {
+    const PART: Part = Part::ComposedLight;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -37,40 +41,39 @@ impl Made for ComposedLight {
         let shown = self.shown.ensure(making.gpu, "shown light", image_bytes(making.request.shot.size_px))?;
         let nothing = self.nothing.ensure(making.gpu, "no light", RADIANCE_BYTES)?;
         making.begin(frame, Pass::ComposeSurfaces);
-        parts.compose(making, frame, making.method.settings().method.look.surface, (&shown, &nothing))?;
+        compose(making, parts, frame, making.method.settings().method.look.surface, (&shown, &nothing))?;
         Ok(None)
     }
 }
 
-impl Parts {
-    /// Puts together what a view of surfaces shows, from the terms that the method calls for.
-    pub fn compose(
-        &self,
-        making: &Making<'_>,
-        frame: &mut Recorder,
-        surface: SurfaceView,
-        (shown, nothing): (&GpuBuffer, &GpuBuffer),
-    ) -> Result<(), EngineError> {
-        let view = making.view();
-        let params = ComposeParams {
-            sky: making.method.sky_nits(),
-            glossy_roughness: making.method.settings().method.cone_tracing.glossy_roughness as f32,
-            span: making.request.grid().span as f32,
-            pad: 0,
-            pad_end: [0; 2],
-        };
-        let keys = making.keys;
-        let direct = keys.get(Part::DirectLight).and_then(|key| self.direct.get(key)?.direct.get());
-        let diffuse = keys.get(Part::DiffuseLight).and_then(|key| self.diffuse.get(key)?.diffuse.get());
-        let specular = keys.get(Part::SpecularLight).and_then(|key| self.specular.get(key)?.specular.get());
-        let terms = Terms { direct, diffuse, specular, nothing };
-        let image = self.surface_image(making)?;
-        compose::record(making.gpu, frame, image, (&view, &params), (surface, terms), shown);
-        Ok(())
-    }
+/// Puts together what a view of surfaces shows, from the terms that the method calls for.
+pub fn compose(
+    making: &Making<'_>,
+    parts: &Parts,
+    frame: &mut Recorder,
+    surface: SurfaceView,
+    (shown, nothing): (&GpuBuffer, &GpuBuffer),
+) -> Result<(), EngineError> {
+    let view = making.view();
+    let params = ComposeParams {
+        sky: making.method.sky_nits(),
+        glossy_roughness: making.method.settings().method.cone_tracing.glossy_roughness as f32,
+        span: making.request.grid().span as f32,
+        pad: 0,
+        pad_end: [0; 2],
+    };
+    let direct = parts.get::<DirectLight>(making.keys).and_then(|light| light.direct.get());
+    let diffuse = parts.get::<DiffuseLight>(making.keys).and_then(|light| light.diffuse.get());
+    let specular = parts.get::<SpecularLight>(making.keys).and_then(|light| light.specular.get());
+    let terms = Terms { direct, diffuse, specular, nothing };
+    let image = surface_image(making, parts)?;
+    compose::record(making.gpu, frame, image, (&view, &params), (surface, terms), shown);
+    Ok(())
 }
 
 impl Made for Exposure {
+    const PART: Part = Part::Exposure;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -78,7 +81,7 @@ impl Made for Exposure {
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
         let gpu = making.gpu;
-        let composed = parts.composed.made(making.key(Part::ComposedLight)?, "shown light")?;
+        let composed = parts.made::<ComposedLight>(making.keys)?;
         let sums = self.sums.ensure(gpu, "sums of luminance", SUM_BYTES)?;
         let exposure = self.exposure.ensure_as(gpu, "exposure", EXPOSURE_BYTES, wgpu::BufferUsages::UNIFORM)?;
         let [width, height] = making.request.shot.size_px;

@@ -1,5 +1,9 @@
 //! Cones that the pixels of the surface image send through the lit octree (section 4.5).
 
+use super::light::Light;
+use super::links::pointers;
+use super::payload::octree;
+use super::surfaces::surface_image;
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::Slot;
 use crate::engine::EngineError;
@@ -56,6 +60,8 @@ fn sampler(making: &Making<'_>) -> Sampler {
 }
 
 impl Made for DiffuseLight {
+    const PART: Part = Part::DiffuseLight;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -72,8 +78,8 @@ impl Made for DiffuseLight {
         let terms = DiffuseTerms { radiance: asked.radiance.is_ok(), occlusion: asked.occlusion.is_ok() };
         let cones = DiffuseCones::new(settings, grid.cells(), grid.span);
         let params = DiffuseParams::new(&cones, making.method.sky_nits(), size_px);
-        let (view, octree) = (making.view(), parts.sampled(making, settings.lookup)?);
-        let surfaces = Surfaces { image: parts.surface_image(making)?, view: &view };
+        let (view, octree) = (making.view(), sampled(making, parts, settings.lookup)?);
+        let surfaces = Surfaces { image: surface_image(making, parts)?, view: &view };
         let input = ConesInput { octree: &octree, surfaces };
         making.begin(frame, Pass::TraceDiffuse);
         diffuse::record(gpu, frame, &input, (&sampler(making), terms), &params, &traced);
@@ -90,6 +96,8 @@ impl Made for DiffuseLight {
 }
 
 impl Made for GlossyTiles {
+    const PART: Part = Part::GlossyTiles;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -100,8 +108,8 @@ impl Made for GlossyTiles {
         let size_px = settings.specular_size_px(making.request.shot.size_px);
         let params = GlossyParams::new(size_px, settings.glossy_roughness);
         let view = making.view();
-        let surfaces = Surfaces { image: parts.surface_image(making)?, view: &view };
-        (self.count, self.room) = (None, parts.likely_glossy_tiles(making.own_key()?.method(), making.estimated_share));
+        let surfaces = Surfaces { image: surface_image(making, parts)?, view: &view };
+        (self.count, self.room) = (None, parts.likely.glossy_tiles(making.own_key()?.method(), making.estimated_share));
         making.begin(frame, Pass::ListGlossyTiles);
         let list = glossy_tiles::record(making.gpu, frame, &surfaces, &params, &mut self.buffers)?;
         let (buffer, at) = list.count_at();
@@ -117,6 +125,8 @@ impl Made for GlossyTiles {
 }
 
 impl Made for SpecularLight {
+    const PART: Part = Part::SpecularLight;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -129,13 +139,13 @@ impl Made for SpecularLight {
         let is_small = size_px != picture_px;
         let slot = if is_small { &mut self.traced } else { &mut self.specular };
         let traced = slot.ensure(gpu, "specular cones", image_bytes(size_px))?;
-        let tiles = parts.glossy_tiles.made(making.key(Part::GlossyTiles)?, "glossy tiles")?;
+        let tiles = parts.made::<GlossyTiles>(making.keys)?;
         let missing = || GpuError::Missing { label: "glossy tile list".to_owned() };
         let listed = (tiles.list.as_ref().ok_or_else(missing)?, tiles.room().unwrap_or_default());
         let params = SpecularParams::new(settings, making.method.sky_nits(), size_px);
         // Nodes are found by rank, whatever the others follow.
-        let (view, octree) = (making.view(), parts.sampled(making, Lookup::Ranks)?);
-        let surfaces = Surfaces { image: parts.surface_image(making)?, view: &view };
+        let (view, octree) = (making.view(), sampled(making, parts, Lookup::Ranks)?);
+        let surfaces = Surfaces { image: surface_image(making, parts)?, view: &view };
         let input = ConesInput { octree: &octree, surfaces };
         making.begin(frame, Pass::TraceSpecular);
         specular::record(gpu, frame, &input, (&sampler(making), &params), listed, &traced);
@@ -148,10 +158,8 @@ impl Made for SpecularLight {
     }
 }
 
-impl Parts {
-    /// The lit octree as samplers with a look-up read it.
-    pub fn sampled(&self, making: &Making<'_>, lookup: Lookup) -> Result<SampledOctree, EngineError> {
-        let light = self.light.made(making.key(Part::Light)?, "light")?.light.made("light")?;
-        Ok(SampledOctree::new(self.octree(making)?, &light, lookup, self.pointers(making.keys, lookup).as_ref())?)
-    }
+/// The lit octree as samplers with a look-up read it.
+pub fn sampled(making: &Making<'_>, parts: &Parts, lookup: Lookup) -> Result<SampledOctree, EngineError> {
+    let light = parts.made::<Light>(making.keys)?.light.made("light")?;
+    Ok(SampledOctree::new(octree(making, parts)?, &light, lookup, pointers(making, parts, lookup).as_ref())?)
 }

@@ -1,5 +1,9 @@
 //! What leaves emit, where something in the scene does.
 
+use super::caches::Caches;
+use super::masks::Masks;
+use super::payload::octree;
+use super::world_voxels::moving_voxels;
 use super::{Made, Making, Parts, Read};
 use crate::data::light::EmissionBuffers;
 use crate::engine::EngineError;
@@ -14,19 +18,21 @@ pub struct LeafEmission {
 }
 
 impl Made for LeafEmission {
+    const PART: Part = Part::Emission;
+
     fn record(
         &mut self,
         making: &Making<'_>,
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let voxels = parts.moving_voxels(making)?;
-        let octree = parts.octree(making)?;
+        let voxels = moving_voxels(making, parts)?;
+        let octree = octree(making, parts)?;
         let fill = Filling::made(octree)?;
-        let caches = parts.caches.made(making.key(Part::Caches)?, "caches")?;
+        let caches = parts.made::<Caches>(making.keys)?;
         let missing = || GpuError::Missing { label: "cache emission".to_owned() };
         let of_caches = caches.emission.clone().ok_or_else(missing)?;
-        let filter = parts.masks.made(making.key(Part::Masks)?, "octree masks")?.filter;
+        let filter = parts.made::<Masks>(making.keys)?.filter;
         let from = (of_caches, voxels.threads());
         let emission = Emission::new(making.gpu, &mut self.buffers, octree.sizes, from)?;
         making.begin(frame, Pass::GatherEmission);

@@ -1,12 +1,13 @@
 //! The exact voxels of the pose beside the moved ones: uploaded, masked for rays, and compared.
 
+use super::masks::Masks;
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::{OctreeParams, OctreeSizes, Slot};
 use crate::engine::EngineError;
 use crate::gpu::{Gpu, GpuError, Recorder};
 use crate::plan::{Part, Pass};
 use crate::stages::build::COUNTERS;
-use crate::stages::build::reduce::{self, Masks};
+use crate::stages::build::reduce;
 use crate::stages::compare::compare_sets;
 
 #[derive(Debug, Default)]
@@ -32,6 +33,8 @@ pub struct Comparison {
 }
 
 impl Made for ExactBits {
+    const PART: Part = Part::ExactBits;
+
     fn record(&mut self, making: &Making<'_>, _: &Parts, _: &mut Recorder) -> Result<Option<Read>, EngineError> {
         let missing = || GpuError::Missing { label: "exact bits".to_owned() };
         let exact = making.request.shot.exact.as_ref().ok_or_else(missing)?;
@@ -42,6 +45,8 @@ impl Made for ExactBits {
 }
 
 impl Made for ExactMasks {
+    const PART: Part = Part::ExactMasks;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -51,8 +56,8 @@ impl Made for ExactMasks {
         let (gpu, depth) = (making.gpu, making.request.grid().depth);
         let octree = OctreeParams::new(depth, depth - 1);
         let sizes = OctreeSizes::write(gpu, &mut self.params, &octree)?;
-        let masks = Masks {
-            leaf_bits: parts.exact_bits.made(making.key(Part::ExactBits)?, "exact bits")?.bits.made("exact bits")?,
+        let masks = reduce::Masks {
+            leaf_bits: parts.made::<ExactBits>(making.keys)?.bits.made("exact bits")?,
             occupied: self.occupied.ensure(gpu, "exact occupied masks", 4 * u64::from(octree.occupied_words()))?,
             blocks: self.blocks.ensure(gpu, "exact block masks", 4 * u64::from(octree.blocks_words()))?,
             counters: self.counters.ensure(gpu, "exact counters", 8 * u64::from(COUNTERS))?,
@@ -66,6 +71,8 @@ impl Made for ExactMasks {
 }
 
 impl Made for Comparison {
+    const PART: Part = Part::Comparison;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -74,8 +81,8 @@ impl Made for Comparison {
     ) -> Result<Option<Read>, EngineError> {
         let bytes = 4 * compare_sets::COUNT_WORDS;
         let counts = self.counts.ensure(making.gpu, "comparison counts", bytes)?;
-        let masks = parts.masks.made(making.key(Part::Masks)?, "octree masks")?;
-        let exact = parts.exact_bits.made(making.key(Part::ExactBits)?, "exact bits")?.bits.made("exact bits")?;
+        let masks = parts.made::<Masks>(making.keys)?;
+        let exact = parts.made::<ExactBits>(making.keys)?.bits.made("exact bits")?;
         self.found = None;
         making.begin(frame, Pass::CompareExact);
         compare_sets::record(making.gpu, frame, &masks.buffers.leaf_bits.made("leaf bits")?, &exact, &counts);

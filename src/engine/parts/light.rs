@@ -2,6 +2,9 @@
 //! other leaves, and what leaves the leaves, averaged to the root (sections 4.3 and 4.4). Sky and bounces sample what
 //! was injected before them, so that the same number of bounces gives the same light whatever was there before.
 
+use super::emission::LeafEmission;
+use super::payload::octree;
+use super::shadow_maps::{maps_read, no_map};
 use super::{Made, Making, Parts, Read};
 use crate::data::light::{IRRADIANCE_BYTES, LIGHT_BYTES, light_bytes};
 use crate::data::octree::Slot;
@@ -13,7 +16,7 @@ use crate::settings::lighting::{Opacity, Shadows};
 use crate::stages::light::gather::{self, ConeParams, Cones, Gathered};
 use crate::stages::light::illuminate;
 use crate::stages::light::inject::{self, Injected};
-use crate::stages::light::shadow::{ShadowMap, ShadowParams};
+use crate::stages::light::shadow::ShadowMap;
 use crate::stages::light::{LitOctree, average_light};
 
 #[derive(Debug, Default)]
@@ -34,14 +37,6 @@ pub struct Light {
 pub struct Irradiance {
     pub shown: Slot,
     pub root: [f32; 4],
-}
-
-/// A map that hides nothing.
-pub fn no_map(gpu: &Gpu, kept: &mut Option<ShadowMap>) -> Result<ShadowMap, GpuError> {
-    match kept {
-        Some(map) => Ok(map.clone()),
-        None => Ok(kept.insert(ShadowMap::new(gpu, ShadowParams::default())?).clone()),
-    }
 }
 
 /// What [`Injected`] borrows.
@@ -91,7 +86,7 @@ impl Light {
         let (gpu, lighting, bytes) = (making.gpu, &making.method.settings().method.lighting, IRRADIANCE_BYTES * leaves);
         let bounces = making.runs(Pass::Bounces);
         let gathered = bounces.then(|| self.gathered.ensure(gpu, "gathered irradiance", bytes)).transpose()?;
-        let emission = parts.leaf_emission(making)?;
+        let emission = leaf_emission(making, parts)?;
         let nits = making.request.prepared.brightest_emission * lighting.emission as f32;
         let direct = self.direct.ensure(gpu, "direct irradiance", bytes)?;
         Ok(FromLeaves { direct, gathered, emission: emission.map(|emission| (emission, nits)) })
@@ -108,7 +103,7 @@ impl Light {
             return Ok(());
         }
         let open = no_map(making.gpu, &mut self.no_map)?;
-        let maps = parts.shadow_maps_read(making);
+        let maps = maps_read(making, parts);
         let lights = light_params(&making.request.prepared, &making.method.lights, lighting);
         for (number, light) in lights.iter().enumerate() {
             let map = maps.get(number).filter(|_| lighting.shadows == Shadows::Map).unwrap_or(&open);
@@ -120,6 +115,8 @@ impl Light {
 }
 
 impl Made for Light {
+    const PART: Part = Part::Light;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -127,7 +124,7 @@ impl Made for Light {
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
         let (gpu, lighting) = (making.gpu, &making.method.settings().method.lighting);
-        let octree = LitOctree::new(parts.octree(making)?)?;
+        let octree = LitOctree::new(octree(making, parts)?)?;
         let params = octree.sizes.params;
         let light = self.light.ensure(gpu, "light", light_bytes(&params, lighting.opacity.is_directional()))?;
         let from = self.leaves(making, parts, params.leaf_count.into())?;
@@ -156,6 +153,8 @@ impl Made for Light {
 }
 
 impl Made for Irradiance {
+    const PART: Part = Part::Irradiance;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -163,10 +162,10 @@ impl Made for Irradiance {
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
         let (gpu, opacity) = (making.gpu, making.method.settings().method.lighting.opacity);
-        let octree = LitOctree::new(parts.octree(making)?)?;
+        let octree = LitOctree::new(octree(making, parts)?)?;
         let shown =
             self.shown.ensure(gpu, "shown irradiance", light_bytes(&octree.sizes.params, opacity.is_directional()))?;
-        let light = parts.light.made(making.key(Part::Light)?, "light")?;
+        let light = parts.made::<Light>(making.keys)?;
         let gathered = light.gathered.get().filter(|_| making.runs(Pass::Bounces));
         let from = Injected { direct: &light.direct.made("direct irradiance")?, gathered, emission: None };
         making.begin(frame, Pass::AverageIrradiance);
@@ -181,19 +180,11 @@ impl Made for Irradiance {
     }
 }
 
-impl Parts {
-    /// What leaves emit, where something does and light is read.
-    fn leaf_emission(&self, making: &Making<'_>) -> Result<Option<GpuBuffer>, EngineError> {
-        let Some(key) = making.keys.get(Part::Emission).filter(|_| !only_opacity(&making.method.asked)) else {
-            return Ok(None);
-        };
-        let emission = self.emission.made(key, "leaf emission")?;
-        Ok(Some(emission.buffers.leaf_emission.made("leaf emission")?))
+/// What leaves emit, where something does and light is read.
+fn leaf_emission(making: &Making<'_>, parts: &Parts) -> Result<Option<GpuBuffer>, EngineError> {
+    if making.keys.get(Part::Emission).is_none() || only_opacity(&making.method.asked) {
+        return Ok(None);
     }
-
-    /// The maps that light is hidden by; none where shadows are not mapped.
-    pub fn shadow_maps_read(&self, making: &Making<'_>) -> &[ShadowMap] {
-        let maps = making.keys.get(Part::ShadowMaps).and_then(|key| self.shadow_maps.get(key));
-        maps.map_or(&[], |maps| &maps.maps)
-    }
+    let emission = parts.made::<LeafEmission>(making.keys)?;
+    Ok(Some(emission.buffers.leaf_emission.made("leaf emission")?))
 }

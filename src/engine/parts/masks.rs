@@ -3,11 +3,12 @@
 //! needs to know how many there are: as many as the last time and a share more, where there was one; the GPU counts,
 //! and the true sizes come back later.
 
+use super::world_voxels::moving_voxels;
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::{MaskBuffers, OctreeParams, OctreeSizes, Slot};
 use crate::engine::EngineError;
 use crate::gpu::{Gpu, GpuError, Recorder};
-use crate::plan::Pass;
+use crate::plan::{Part, Pass};
 use crate::settings::Filter;
 use crate::stages::build::scan::{self, Scanned};
 use crate::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, mark, reduce, size};
@@ -69,6 +70,8 @@ impl Masks {
 }
 
 impl Made for Masks {
+    const PART: Part = Part::Masks;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -76,11 +79,11 @@ impl Made for Masks {
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
         let (gpu, discretization) = (making.gpu, &making.method.settings().method.discretization);
-        let voxels = parts.moving_voxels(making)?;
+        let voxels = moving_voxels(making, parts)?;
         let (depth, filter) = (discretization.depth(), discretization.filter);
         let octree = OctreeParams::new(depth, discretization.deepest_dense());
         (self.filter, self.voxels, self.counts) = (filter, voxels.threads(), None);
-        self.room = parts.likely_sizes(making.own_key()?.method(), making.estimated_share);
+        self.room = parts.likely.sizes(making.own_key()?.method(), making.estimated_share);
         let sizes = OctreeSizes::write(gpu, &mut self.params, &octree)?;
         let masks = reduce::Masks::new(gpu, &octree, &mut self.buffers)?;
         making.begin(frame, Pass::MarkLeaves);
@@ -117,4 +120,10 @@ impl Made for Masks {
         self.counts = Some(MaskCounts { params, occupied, clipped_weight: counter(COUNTER_CLIPPED) });
         Ok(())
     }
+}
+
+/// Sizes of the method's octree: exact, or with room for what is likely.
+pub fn sizes<'a>(making: &Making<'_>, parts: &'a Parts) -> Result<&'a OctreeSizes, EngineError> {
+    let sizes = parts.made::<Masks>(making.keys)?.sizes();
+    Ok(sizes.ok_or_else(|| GpuError::Missing { label: "octree sizes".to_owned() })?)
 }

@@ -1,5 +1,8 @@
 //! Which object fills each leaf most, where somebody looks at objects.
 
+use super::masks::Masks;
+use super::payload::octree;
+use super::world_voxels::moving_voxels;
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::Slot;
 use crate::engine::EngineError;
@@ -13,16 +16,18 @@ pub struct ObjectNumbers {
 }
 
 impl Made for ObjectNumbers {
+    const PART: Part = Part::ObjectNumbers;
+
     fn record(
         &mut self,
         making: &Making<'_>,
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let voxels = parts.moving_voxels(making)?;
-        let octree = parts.octree(making)?;
+        let voxels = moving_voxels(making, parts)?;
+        let octree = octree(making, parts)?;
         let fill = Filling::made(octree)?;
-        let filter = parts.masks.made(making.key(Part::Masks)?, "octree masks")?.filter;
+        let filter = parts.made::<Masks>(making.keys)?.filter;
         let bytes = 4 * u64::from(octree.sizes.params.leaf_count);
         let objects = self.leaf_objects.ensure(making.gpu, "leaf objects", bytes)?;
         let leaf_bits = octree.masks.leaf_bits.made("leaf bits")?;

@@ -1,6 +1,7 @@
 //! Object I-O (section 4.2): parts that reach into the grid get segments of the pages, those that leave give them
 //! back. What each voxel's thread reads is listed here; nothing runs on the GPU.
 
+use super::caches::Caches;
 use super::{Made, Making, Parts, Read};
 use crate::data::matrix::Matrix3x4;
 use crate::data::octree::Slot;
@@ -62,7 +63,7 @@ impl Pages {
 
     fn exchange_objects(&mut self, making: &Making<'_>, parts: &Parts) -> Result<(), EngineError> {
         let (prepared, resident) = (&making.request.prepared, &making.method.matrices.resident);
-        let caches = parts.caches.made(making.key(Part::Caches)?, "caches")?;
+        let caches = parts.made::<Caches>(making.keys)?;
         let pages = self.pages.get_or_insert_with(|| pages::Pages::new(making.order));
         // Leaving first: what is freed serves those that enter.
         for (index, _) in resident.iter().enumerate().filter(|(_, resident)| !**resident) {
@@ -89,10 +90,12 @@ fn rigid_threads(prepared: &Prepared, resident: &[bool]) -> u32 {
 }
 
 impl Made for Pages {
+    const PART: Part = Part::Pages;
+
     fn record(&mut self, making: &Making<'_>, parts: &Parts, _: &mut Recorder) -> Result<Option<Read>, EngineError> {
         self.exchange_objects(making, parts)?;
         let (gpu, prepared, frame) = (making.gpu, &making.request.prepared, &making.method.matrices);
-        let caches = parts.caches.made(making.key(Part::Caches)?, "caches")?;
+        let caches = parts.made::<Caches>(making.keys)?;
         let with_records = |(index, part): (usize, &transform::PartRecord)| {
             let start = caches.start(prepared.objects[prepared.parts[index].object].cache);
             transform::PartRecord { joints_skew: start.joints_skew, emission_skew: start.emission_skew, ..*part }

@@ -1,8 +1,11 @@
 //! What leaves and nodes hold: the voxels are sorted by leaf block, gathered into exact sums, and averaged to the root
 //! (sections 4.3 and 4.4).
 
+use super::masks::{Masks, sizes};
+use super::topology::Topology;
+use super::world_voxels::moving_voxels;
 use super::{Made, Making, Parts, Read};
-use crate::data::octree::PayloadBuffers;
+use crate::data::octree::{OctreeRef, PayloadBuffers};
 use crate::engine::EngineError;
 use crate::gpu::{Gpu, GpuError, Recorder};
 use crate::plan::{Part, Pass};
@@ -19,6 +22,8 @@ pub struct Payload {
 }
 
 impl Made for Payload {
+    const PART: Part = Part::Payload;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -26,10 +31,10 @@ impl Made for Payload {
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
         let gpu = making.gpu;
-        let voxels = parts.moving_voxels(making)?;
-        let masks = parts.masks.made(making.key(Part::Masks)?, "octree masks")?;
-        let topology = parts.topology.made(making.key(Part::Topology)?, "octree nodes")?;
-        let (sizes, filter) = (parts.sizes(making)?, masks.filter);
+        let voxels = moving_voxels(making, parts)?;
+        let masks = parts.made::<Masks>(making.keys)?;
+        let topology = parts.made::<Topology>(making.keys)?;
+        let (sizes, filter) = (sizes(making, parts)?, masks.filter);
         let (masks, topology) = (&masks.buffers, &topology.buffers);
         let fill = Filling::new(gpu, sizes, masks, topology, &mut self.buffers, voxels.threads())?;
         making.begin(frame, Pass::SortVoxels);
@@ -54,4 +59,14 @@ impl Made for Payload {
         self.occupancy = u64::from(words[0]) | u64::from(words[1]) << 32;
         Ok(())
     }
+}
+
+/// The method's octree as its readers bind it.
+pub fn octree<'a>(making: &Making<'_>, parts: &'a Parts) -> Result<OctreeRef<'a>, EngineError> {
+    Ok(OctreeRef {
+        sizes: sizes(making, parts)?,
+        masks: &parts.made::<Masks>(making.keys)?.buffers,
+        topology: &parts.made::<Topology>(making.keys)?.buffers,
+        payload: &parts.made::<Payload>(making.keys)?.buffers,
+    })
 }

@@ -3,9 +3,9 @@
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::Slot;
 use crate::engine::EngineError;
-use crate::gpu::Recorder;
-use crate::plan::Pass;
-use crate::stages::light::shadow::ShadowMap;
+use crate::gpu::{Gpu, GpuError, Recorder};
+use crate::plan::{Part, Pass};
+use crate::stages::light::shadow::{ShadowMap, ShadowParams};
 
 #[derive(Debug, Default)]
 pub struct ShadowMaps {
@@ -15,6 +15,8 @@ pub struct ShadowMaps {
 }
 
 impl Made for ShadowMaps {
+    const PART: Part = Part::ShadowMaps;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -38,5 +40,18 @@ impl Made for ShadowMaps {
             map.record(gpu, frame, &posed);
         }
         Ok(None)
+    }
+}
+
+/// The maps that light is hidden by; none where shadows are not mapped.
+pub fn maps_read<'a>(making: &Making<'_>, parts: &'a Parts) -> &'a [ShadowMap] {
+    parts.get::<ShadowMaps>(making.keys).map_or(&[], |maps| &maps.maps)
+}
+
+/// A map that hides nothing.
+pub fn no_map(gpu: &Gpu, kept: &mut Option<ShadowMap>) -> Result<ShadowMap, GpuError> {
+    match kept {
+        Some(map) => Ok(map.clone()),
+        None => Ok(kept.insert(ShadowMap::new(gpu, ShadowParams::default())?).clone()),
     }
 }

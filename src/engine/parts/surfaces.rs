@@ -1,6 +1,7 @@
 //! What the camera sees: the surface image, and the light that reaches it straight from the lights.
 
-use super::light::no_map;
+use super::payload::octree;
+use super::shadow_maps::{maps_read, no_map};
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::Slot;
 use crate::data::surface_image::SurfaceImage;
@@ -38,6 +39,8 @@ impl Surfaces {
 }
 
 impl Made for Surfaces {
+    const PART: Part = Part::SurfaceImage;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -59,6 +62,8 @@ impl Made for Surfaces {
 }
 
 impl Made for DirectLight {
+    const PART: Part = Part::DirectLight;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -70,17 +75,17 @@ impl Made for DirectLight {
         let sum = self.direct.ensure(gpu, "direct light of surfaces", bytes)?;
         let view = making.view();
         let open = no_map(gpu, &mut self.no_map)?;
-        let lit = Lit { image: parts.surface_image(making)?, view: &view, direct: &sum };
+        let lit = Lit { image: surface_image(making, parts)?, view: &view, direct: &sum };
         making.begin(frame, Pass::EmitSurfaces);
         emission::record(gpu, frame, &lit);
         let lights = light_params(&making.request.prepared, &making.method.lights, lighting);
         if lighting.shadows == Shadows::March && !lights.is_empty() {
-            let octree = LitOctree::new(parts.octree(making)?)?;
+            let octree = LitOctree::new(octree(making, parts)?)?;
             making.begin(frame, Pass::LightByMarching);
             lights.iter().for_each(|light| direct_march::record(gpu, frame, &lit, light, &octree));
             return Ok(None);
         }
-        let maps = parts.shadow_maps_read(making);
+        let maps = maps_read(making, parts);
         making.begin(frame, Pass::LightSurfaces);
         for (number, light) in lights.iter().enumerate() {
             let map = maps.get(number).filter(|_| lighting.shadows == Shadows::Map).unwrap_or(&open);
@@ -90,8 +95,6 @@ impl Made for DirectLight {
     }
 }
 
-impl Parts {
-    pub fn surface_image(&self, making: &Making<'_>) -> Result<&SurfaceImage, EngineError> {
-        Ok(self.surfaces.made(making.key(Part::SurfaceImage)?, "surface image")?.image()?)
-    }
+pub fn surface_image<'a>(making: &Making<'_>, parts: &'a Parts) -> Result<&'a SurfaceImage, EngineError> {
+    Ok(parts.made::<Surfaces>(making.keys)?.image()?)
 }

@@ -1,6 +1,8 @@
 //! Voxel transformation (section 4.2): one half of the pages, of static and rigid objects or of skinned ones, moved
 //! for the pose. The halves lie in the buffers of their pages; each is moved by itself.
 
+use super::caches::Caches;
+use super::pages::Pages;
 use super::{Made, Making, Parts, Read};
 use crate::engine::EngineError;
 use crate::gpu::{GpuError, Recorder};
@@ -15,33 +17,33 @@ pub struct RigidVoxels;
 #[derive(Debug, Default)]
 pub struct SkinnedVoxels;
 
-impl Parts {
-    /// What moves voxels, and what reads them where they have been moved to.
-    pub fn moving_voxels(&self, making: &Making<'_>) -> Result<MovingVoxels, EngineError> {
-        let caches = self.caches.made(making.key(Part::Caches)?, "caches")?;
-        let pages = self.pages.made(making.key(Part::Pages)?, "world voxel pages")?;
-        let missing = || GpuError::Missing { label: "cache voxels".to_owned() };
-        Ok(MovingVoxels {
-            work_items: pages.work_items()?,
-            work_hints: pages.work_hints()?,
-            parts: pages.parts()?,
-            matrices: pages.matrices()?,
-            cache_voxels: caches.voxels.clone().ok_or_else(missing)?,
-            cache_joints: caches.joints.clone(),
-            world_voxels: pages.world_voxels()?,
-            rigid_threads: pages.rigid_threads(),
-            skinned_threads: pages.threads() - pages.rigid_threads(),
-        })
-    }
+/// What moves voxels, and what reads them where they have been moved to.
+pub fn moving_voxels(making: &Making<'_>, parts: &Parts) -> Result<MovingVoxels, EngineError> {
+    let caches = parts.made::<Caches>(making.keys)?;
+    let pages = parts.made::<Pages>(making.keys)?;
+    let missing = || GpuError::Missing { label: "cache voxels".to_owned() };
+    Ok(MovingVoxels {
+        work_items: pages.work_items()?,
+        work_hints: pages.work_hints()?,
+        parts: pages.parts()?,
+        matrices: pages.matrices()?,
+        cache_voxels: caches.voxels.clone().ok_or_else(missing)?,
+        cache_joints: caches.joints.clone(),
+        world_voxels: pages.world_voxels()?,
+        rigid_threads: pages.rigid_threads(),
+        skinned_threads: pages.threads() - pages.rigid_threads(),
+    })
 }
 
 fn begin(making: &Making<'_>, parts: &Parts) -> Result<MovingVoxels, EngineError> {
-    let pages = parts.pages.made(making.key(Part::Pages)?, "world voxel pages")?;
+    let pages = parts.made::<Pages>(making.keys)?;
     pages.write_matrices(making.gpu, making.method)?;
-    parts.moving_voxels(making)
+    moving_voxels(making, parts)
 }
 
 impl Made for RigidVoxels {
+    const PART: Part = Part::RigidVoxels;
+
     fn record(
         &mut self,
         making: &Making<'_>,
@@ -56,6 +58,8 @@ impl Made for RigidVoxels {
 }
 
 impl Made for SkinnedVoxels {
+    const PART: Part = Part::SkinnedVoxels;
+
     fn record(
         &mut self,
         making: &Making<'_>,

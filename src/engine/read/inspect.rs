@@ -6,12 +6,14 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
+use super::super::parts::light::Light;
+use super::super::parts::links::BlockLinks;
+use super::super::parts::topology::Topology;
 use super::super::state::FinishedFrame;
 use super::super::{Engine, EngineError};
 use super::node_reader::{NodeAddress, NodeReader, Payload};
 use crate::data::light::LIGHT_BYTES;
 use crate::gpu::GpuError;
-use crate::plan::Part;
 use crate::settings::View;
 use crate::stages::pixels::camera::PixelRays;
 use crate::stages::pixels::shown_level;
@@ -114,16 +116,17 @@ impl Engine {
     fn node_reader(&self) -> Option<NodeReader<'_>> {
         let keys = self.shown.as_ref().filter(|_| self.is_at_rest())?.keys.first()?;
         let built = self.shown_octree()?;
-        let topology = &self.parts.topology.finished(keys.get(Part::Topology)?)?.buffers;
-        let links = keys.get(Part::BlockLinks).and_then(|key| self.parts.block_links.finished(key));
+        let topology = &self.parts.finished::<Topology>(keys)?.buffers;
+        let links = self.parts.finished::<BlockLinks>(keys);
         let neighbours = links.map(|links| links.neighbours.clone()).unwrap_or_default();
         Some(NodeReader { gpu: &self.gpu, octree: &built.counts.params, built, topology, neighbours })
     }
 
     /// Mean radiance of an entry of the stored light.
     fn radiance_of(&self, entry: u32) -> Result<Option<[f64; 3]>, GpuError> {
-        let key = self.shown.as_ref().and_then(|shown| shown.keys.first()?.get(Part::Light));
-        let Some(light) = key.and_then(|key| self.parts.light.finished(key)?.light.get()) else { return Ok(None) };
+        let keys = self.shown.as_ref().and_then(|shown| shown.keys.first());
+        let light = keys.and_then(|keys| self.parts.finished::<Light>(keys)?.light.get());
+        let Some(light) = light else { return Ok(None) };
         let first = LIGHT_BYTES * u64::from(entry);
         let stored: Vec<f32> = self.gpu.read(light, first..first + LIGHT_BYTES)?;
         let opacity = f64::from(stored[3]);

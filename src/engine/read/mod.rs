@@ -32,8 +32,8 @@ pub(super) struct Built<'a> {
 impl Engine {
     /// The octree that a method asked for, if it is there.
     fn built(&self, keys: &Keys) -> Option<Built<'_>> {
-        let masks = self.parts.masks.finished(keys.get(Part::Masks)?)?;
-        let payload = self.parts.payload.finished(keys.get(Part::Payload)?)?;
+        let masks = self.parts.finished::<Masks>(keys)?;
+        let payload = self.parts.finished::<Payload>(keys)?;
         Some(Built { masks, counts: masks.counts.as_ref()?, payload })
     }
 

@@ -1,6 +1,7 @@
 //! What the last build made, in numbers.
 
 use super::super::Engine;
+use super::super::parts::exact::Comparison;
 use super::super::reports::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 use super::super::request::Request;
 use super::Built;
@@ -75,7 +76,7 @@ impl Engine {
     fn filter_report(&self, keys: &Keys) -> Option<FilterReport> {
         let built = self.built(keys)?;
         let levels = built.levels();
-        let found = keys.get(Part::Comparison).and_then(|key| self.parts.comparisons.finished(key)?.found);
+        let found = self.parts.finished::<Comparison>(keys).and_then(|comparison| comparison.found);
         Some(FilterReport {
             filter: built.masks.filter,
             kernel_ms: self.build_ms(keys),

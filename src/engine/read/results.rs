@@ -1,5 +1,8 @@
 //! What is told of a frame: taken down when it is finished, before the next one overwrites what it was made of.
 
+use super::super::parts::composed::Exposure;
+use super::super::parts::cones::GlossyTiles;
+use super::super::parts::light::{Irradiance, Light};
 use super::super::reports::Results;
 use super::super::request::Request;
 use super::super::{Engine, PassTiming};
@@ -14,7 +17,7 @@ impl Engine {
     pub(in crate::engine) fn results(&self, request: &Request, methods: &[Keys]) -> Results {
         let nothing = Keys::default();
         let keys = methods.first().unwrap_or(&nothing);
-        let tiles = keys.get(Part::GlossyTiles).and_then(|key| self.parts.glossy_tiles.finished(key)?.count);
+        let tiles = self.parts.finished::<GlossyTiles>(keys).and_then(|tiles| tiles.count);
         Results {
             octree: self.report_octree(request, keys),
             accuracy: self.report_accuracy(request, methods),
@@ -34,7 +37,7 @@ impl Engine {
 
     fn exposure_of(&self, request: &Request, keys: &Keys) -> f64 {
         let look = &request.settings().method.look;
-        let measured = || Some(self.parts.exposure.finished(keys.get(Part::Exposure)?)?.measured.factor);
+        let measured = || Some(self.parts.finished::<Exposure>(keys)?.measured.factor);
         match look.exposure_stops {
             Some(stops) => stops.exp2(),
             None if look.view == View::Surfaces => measured().map_or(1.0, f64::from),
@@ -50,8 +53,8 @@ impl Engine {
             return None;
         }
         let [r, g, b, opacity] = match light_shown(asked) {
-            Part::Irradiance => self.parts.irradiance.finished(keys.get(Part::Irradiance)?)?.root,
-            _ => self.parts.light.finished(keys.get(Part::Light)?)?.root,
+            Part::Irradiance => self.parts.finished::<Irradiance>(keys)?.root,
+            _ => self.parts.finished::<Light>(keys)?.root,
         };
         let mean = luminance([r, g, b].map(f64::from)) / f64::from(opacity);
         (opacity > 0.0 && mean > 0.0).then_some(mean)

@@ -1,5 +1,6 @@
 //! Samples the lit octree at given places, as cones and slices do.
 
+use super::super::parts::cones::sampled;
 use super::super::{Engine, EngineError};
 use super::missing;
 use crate::gpu::{GpuBuffer, Job, KernelTiming, Recorder};
@@ -31,7 +32,7 @@ impl Engine {
     ) -> Result<(Job, GpuBuffer), EngineError> {
         let shown = self.shown.as_ref().ok_or_else(|| missing("light"))?;
         let making = self.making(shown, Part::Light).ok_or_else(|| missing("light"))?;
-        let octree = self.parts.sampled(&making, sampler.lookup)?;
+        let octree = sampled(&making, &self.parts, sampler.lookup)?;
         let buffer = self.gpu.upload("sample points", points)?;
         let params = PointParams::new(direction);
         let mut frame = Recorder::default();

@@ -1,5 +1,6 @@
 //! Brings back what the view of surfaces shows, or a part of it.
 
+use super::super::parts::composed::{ComposedLight, compose};
 use super::super::state::FinishedFrame;
 use super::super::{Engine, EngineError};
 use super::missing;
@@ -23,8 +24,8 @@ impl Engine {
     /// until it is here; `None` where another view is shown.
     pub fn read_surfaces(&self) -> Result<Option<Vec<[f32; 4]>>, EngineError> {
         let Some(shown) = self.shown_surfaces() else { return Ok(None) };
-        let key = shown.keys.first().and_then(|keys| keys.get(Part::ComposedLight));
-        let composed = key.and_then(|key| self.parts.composed.finished(key)).ok_or_else(|| missing("shown light"))?;
+        let composed = shown.keys.first().and_then(|keys| self.parts.finished::<ComposedLight>(keys));
+        let composed = composed.ok_or_else(|| missing("shown light"))?;
         let light = composed.shown.made("shown light")?;
         Ok(Some(self.gpu.read(&light, 0..image_bytes(shown.request.shot.size_px))?))
     }
@@ -38,7 +39,7 @@ impl Engine {
         let into = self.gpu.buffer("a part of shown light", image_bytes(shown.request.shot.size_px), usage)?;
         let nothing = self.gpu.buffer("no light", RADIANCE_BYTES, usage)?;
         let mut recorder = Recorder::default();
-        self.parts.compose(&making, &mut recorder, part, (&into, &nothing))?;
+        compose(&making, &self.parts, &mut recorder, part, (&into, &nothing))?;
         Job::new(recorder).run_to_end(&self.gpu)?;
         Ok(Some(self.gpu.read(&into, 0..into.bytes())?))
     }

@@ -1,10 +1,9 @@
 //! Paths against cones: how right a path-traced picture is in the time that cones take, and from how many
 //! samples on it is as right as theirs.
 
-use serde::Serialize;
-
 use crate::accuracy::path_tracer::{Film, Options, TracedScene};
 use crate::accuracy::picture_error::{self, Display, LightPixel, PictureError};
+use crate::experiment::rows::{PathsError, Race};
 use crate::experiment::table::name_of;
 use crate::experiment::{ExperimentError, TraceError};
 use crate::prepare::Prepared;
@@ -14,69 +13,39 @@ use crate::settings::{Settings, SurfaceView};
 /// Another picture of the path tracer than the one that is the truth.
 const OTHER_SEED: u64 = 0x0c70_1ae0;
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Race {
-    /// Of 1, 2, 4 … samples a pixel, the last that fit in the time of cones, or the first.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    equal_time: Option<PathsError>,
-    /// The first with which paths look as right as cones.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    as_right: Option<PathsError>,
-}
-
-/// A picture of a few paths beside the truth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-struct PathsError {
-    samples: u32,
-    secs: f64,
-    #[serde(flatten)]
-    error: PictureError,
-}
-
-impl Race {
-    /// Paths of the shown part of light, made with `options` but for the seed, against cones that took some
-    /// seconds and have an error.
-    pub fn run(
-        (prepared, settings): (&Prepared, &Settings),
-        (truth, options): (&Film, Options),
-        (cones_secs, cones): (f64, PictureError),
-        progress: &Progress,
-    ) -> Result<Self, ExperimentError> {
-        let options = Options { seed: options.seed ^ OTHER_SEED, ..options };
-        let scene = TracedScene::new(prepared, settings, options).map_err(TraceError::from)?;
-        let part = settings.method.look.surface;
-        let light = |film: &Film| shown(film, part, (prepared, settings));
-        let truth_light = light(truth)?;
-        let shown = Display::new(&settings.method.look, part, &truth_light);
-        let mut film = scene.new_film();
-        let mut race = Self { equal_time: None, as_right: None };
-        // A truth that is hardly better than what is judged by it would say nothing.
-        while film.samples() < truth.samples() / 4 {
-            let samples = (2 * film.samples()).max(1);
-            scene.trace(&mut film, samples, progress).map_err(TraceError::from)?;
-            let error = picture_error::compare(&light(&film)?, &truth_light, film.size_px(), &shown)?;
-            let found = PathsError { samples, secs: film.secs(), error };
-            if race.equal_time.is_none() || found.secs <= cones_secs {
-                race.equal_time = Some(found);
-            }
-            if race.as_right.is_none() && looks_off(&error) <= looks_off(&cones) {
-                race.as_right = Some(found);
-            }
-            if race.as_right.is_some() && found.secs > cones_secs {
-                break;
-            }
+/// Paths of the shown part of light, made with `options` but for the seed, against cones that took some
+/// seconds and have an error.
+pub fn run(
+    (prepared, settings): (&Prepared, &Settings),
+    (truth, options): (&Film, Options),
+    (cones_secs, cones): (f64, PictureError),
+    progress: &Progress,
+) -> Result<Race, ExperimentError> {
+    let options = Options { seed: options.seed ^ OTHER_SEED, ..options };
+    let scene = TracedScene::new(prepared, settings, options).map_err(TraceError::from)?;
+    let part = settings.method.look.surface;
+    let light = |film: &Film| shown(film, part, (prepared, settings));
+    let truth_light = light(truth)?;
+    let shown = Display::new(&settings.method.look, part, &truth_light);
+    let mut film = scene.new_film();
+    let mut race = Race { equal_time: None, as_right: None };
+    // A truth that is hardly better than what is judged by it would say nothing.
+    while film.samples() < truth.samples() / 4 {
+        let samples = (2 * film.samples()).max(1);
+        scene.trace(&mut film, samples, progress).map_err(TraceError::from)?;
+        let error = picture_error::compare(&light(&film)?, &truth_light, film.size_px(), &shown)?;
+        let found = PathsError { samples, secs: film.secs(), error };
+        if race.equal_time.is_none() || found.secs <= cones_secs {
+            race.equal_time = Some(found);
         }
-        Ok(race)
+        if race.as_right.is_none() && looks_off(&error) <= looks_off(&cones) {
+            race.as_right = Some(found);
+        }
+        if race.as_right.is_some() && found.secs > cones_secs {
+            break;
+        }
     }
-
-    pub fn text(&self) -> String {
-        let told = |paths: &PathsError| {
-            format!("{} samples a pixel, {:.2} s, {}", paths.samples, paths.secs, flip(&paths.error))
-        };
-        let equal_time = self.equal_time.as_ref().map_or("none".to_owned(), told);
-        let as_right = self.as_right.as_ref().map_or("not with a quarter of the truth's samples".to_owned(), told);
-        format!("paths in that time: {equal_time}; as right: {as_right}")
-    }
+    Ok(race)
 }
 
 /// What paths make of a part of light.
@@ -92,9 +61,4 @@ pub fn shown(
 /// FLIP, or what stands in for it.
 fn looks_off(error: &PictureError) -> f64 {
     error.flip.unwrap_or(1.0 - error.ssim)
-}
-
-/// "FLIP 0.1234", or SSIM where the program is built without it.
-pub fn flip(error: &PictureError) -> String {
-    error.flip.map_or_else(|| format!("SSIM {:.4}", error.ssim), |flip| format!("FLIP {flip:.4}"))
 }

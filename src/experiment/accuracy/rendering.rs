@@ -7,19 +7,19 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use image::DynamicImage;
-use serde::Serialize;
 
-use super::race::{Race, flip, shown};
+use super::race::{run, shown};
 use super::traced::traced;
 use super::{picture_stem, posed};
 use crate::accuracy::path_tracer::{Film, Options, Term};
-use crate::accuracy::picture_error::{self, Display, LightPixel, PictureError, difference_map, difference_scale};
+use crate::accuracy::picture_error::{self, Display, LightPixel, difference_map, difference_scale};
 use crate::disk_cache::DiskCache;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames, Times};
 use crate::experiment::lab::Lab;
+use crate::experiment::rows::RenderingRow;
 use crate::experiment::surface_work::{self, SurfaceWork};
-use crate::experiment::table::{Table, name_of, turn};
+use crate::experiment::table::name_of;
 use crate::experiment::{Experiment, ExperimentError, NamedPicture, Subject};
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
@@ -62,32 +62,6 @@ impl Default for RenderingOptions {
     fn default() -> Self {
         Self { size_px: [320, 180], samples: 256, seed: 0, disk: None, draws: false }
     }
-}
-
-/// One term of one pose.
-#[derive(Clone, Debug, Serialize)]
-pub struct RenderingRow {
-    pub scene: String,
-    pub time_secs: f64,
-    pub turn_degrees: [f64; 3],
-    pub grid: u32,
-    pub span: f64,
-    pub size_px: [u32; 2],
-    pub bounces: u32,
-    pub term: SurfaceView,
-    #[serde(flatten)]
-    pub error: PictureError,
-    /// Of the kernels behind the term, medians.
-    pub cones_ms: f64,
-    /// Of all terms of the truth.
-    pub paths_secs: f64,
-    pub samples: u32,
-    /// Standard error of the truth over its mean: of pixels, root mean square, and of the whole picture.
-    pub paths_error: f64,
-    pub paths_mean_error: f64,
-    /// Of the final picture.
-    #[serde(flatten)]
-    race: Option<Race>,
 }
 
 /// A row a term in every pose.
@@ -208,7 +182,7 @@ async fn race(
     let Some((place, cones)) = place.map(|place| (place, rows.borrow()[place].clone())) else { return Ok(()) };
     let (prepared, options) = (Arc::clone(&lab.prepared), paths(options));
     let race = lab.work((share, "tracing paths as long as cones took"), move |progress| {
-        Race::run((&prepared, &settings), (&truth, options), (cones.cones_ms / 1e3, cones.error), progress)
+        run((&prepared, &settings), (&truth, options), (cones.cones_ms / 1e3, cones.error), progress)
     });
     let race = race.await??;
     rows.borrow_mut()[place].race = Some(race);
@@ -266,54 +240,4 @@ impl ReadTerm {
         };
         pictures.map(named).into()
     }
-}
-
-impl RenderingRow {
-    const HEADS: [&'static str; 13] = [
-        "scene",
-        "time s",
-        "turn °",
-        "grid",
-        "bounces",
-        "term",
-        "relMSE",
-        "bias %",
-        "SSIM",
-        "FLIP",
-        "cones ms",
-        "paths s",
-        "paths ± %",
-    ];
-
-    pub(in crate::experiment) fn table(rows: &[Self]) -> Table {
-        Table::new("rendering", &Self::HEADS, rows.iter().map(Self::cells))
-    }
-
-    fn cells(&self) -> Vec<String> {
-        let PictureError { rel_mse, bias, ssim, flip } = self.error;
-        vec![
-            self.scene.clone(),
-            format!("{:.3}", self.time_secs),
-            turn(self.turn_degrees),
-            self.grid.to_string(),
-            self.bounces.to_string(),
-            name_of(&self.term),
-            format!("{rel_mse:.4}"),
-            format!("{:+.2}", 100.0 * bias),
-            format!("{ssim:.4}"),
-            flip.map(|flip| format!("{flip:.4}")).unwrap_or_default(),
-            format!("{:.1}", self.cones_ms),
-            format!("{:.1}", self.paths_secs),
-            format!("{:.2}", 100.0 * self.paths_error),
-        ]
-    }
-}
-
-/// What the table has no room for: paths in the time of cones.
-pub fn paths_in_that_time(rows: &[RenderingRow]) -> Vec<String> {
-    let of_row = |row: &RenderingRow| {
-        let (scene, secs) = (&row.scene, row.cones_ms / 1e3);
-        Some(format!("{scene}: cones {secs:.2} s, {}; {}", flip(&row.error), row.race.as_ref()?.text()))
-    };
-    rows.iter().filter_map(of_row).collect()
 }

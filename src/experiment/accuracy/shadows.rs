@@ -4,8 +4,6 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use serde::Serialize;
-
 use super::posed;
 use crate::accuracy::alone;
 use crate::accuracy::posed_triangles::PosedTriangles;
@@ -15,7 +13,7 @@ use crate::engine::PassTiming;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
-use crate::experiment::table::{Table, name_of, turn};
+use crate::experiment::rows::{Method, ShadowRow};
 use crate::experiment::{Experiment, ExperimentError, Subject};
 use crate::gpu::Gpu;
 use crate::lights::{KnownLight, Shines, posed_lights};
@@ -26,35 +24,8 @@ use crate::settings::lighting::Shadows;
 use crate::settings::{ColorBy, MotionSettings, Settings, View};
 use crate::spread::Spread;
 
-/// One light of one pose by one method.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ShadowRow {
-    pub scene: String,
-    pub clip: Option<String>,
-    pub time_secs: f64,
-    pub turn_degrees: [f64; 3],
-    pub grid: u32,
-    pub span: f64,
-    pub light: String,
-    #[serde(flatten)]
-    method: Method,
-    /// Of shadow map and irradiance.
-    pub kernel_ms: f64,
-    #[serde(flatten)]
-    pub error: ShadowError,
-}
-
 /// The mean over several lights.
 const ALL_LIGHTS: &str = "all";
-
-/// How a leaf learns whether the light reaches it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-struct Method {
-    shadows: Shadows,
-    /// Texels along an edge of a shadow map.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    map_px: Option<u32>,
-}
 
 const METHODS: [Method; 5] = [
     Method { shadows: Shadows::Map, map_px: Some(1024) },
@@ -221,51 +192,4 @@ fn together(rows: &[ShadowRow]) -> Vec<ShadowRow> {
         Some(ShadowRow { light: ALL_LIGHTS.to_owned(), kernel_ms, error: ShadowError::of_all(&errors), ..row })
     };
     METHODS.into_iter().filter_map(merged).collect()
-}
-
-impl ShadowRow {
-    const HEADS: [&'static str; 12] = [
-        "scene",
-        "time s",
-        "turn °",
-        "grid",
-        "light",
-        "shadows",
-        "kernel ms",
-        "points",
-        "lit %",
-        "mean error %",
-        "lost %",
-        "leaked %",
-    ];
-
-    pub(in crate::experiment) fn table(rows: &[Self]) -> Table {
-        Table::new("shadows", &Self::HEADS, rows.iter().map(Self::cells))
-    }
-
-    fn cells(&self) -> Vec<String> {
-        let error = &self.error;
-        let percent = |share: f64| format!("{share:.2}");
-        vec![
-            self.scene.clone(),
-            format!("{:.3}", self.time_secs),
-            turn(self.turn_degrees),
-            self.grid.to_string(),
-            self.light.clone(),
-            self.method.name(),
-            format!("{:.2}", self.kernel_ms),
-            error.points.to_string(),
-            percent(error.lit_percent),
-            percent(error.mean_error_percent),
-            percent(error.lost_percent),
-            percent(error.leaked_percent),
-        ]
-    }
-}
-
-impl Method {
-    fn name(self) -> String {
-        let name = name_of(&self.shadows);
-        self.map_px.map_or(name.clone(), |px| format!("{name} {px}"))
-    }
 }

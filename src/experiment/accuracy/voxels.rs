@@ -5,15 +5,13 @@
 
 use std::sync::Arc;
 
-use serde::Serialize;
-
 use super::{picture_stem, posed};
-use crate::accuracy::percent;
 use crate::engine::FilterReport;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
-use crate::experiment::table::{Table, name_of, turn};
+use crate::experiment::rows::VoxelRow;
+use crate::experiment::table::name_of;
 use crate::experiment::{Experiment, ExperimentError, NamedPicture, Subject};
 use crate::gpu::Gpu;
 use crate::settings::{Filter, MotionSettings, Settings, View};
@@ -21,21 +19,6 @@ use crate::spread::Spread;
 
 /// Size of the ghost pictures.
 const SIZE_PX: [u32; 2] = [960, 540];
-
-/// One pose on one grid, both filters.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct VoxelRow {
-    pub scene: String,
-    pub clip: Option<String>,
-    pub time_secs: f64,
-    pub turn_degrees: [f64; 3],
-    pub grid: u32,
-    pub span: f64,
-    /// Cells of the exact posed voxelization.
-    pub exact: u64,
-    pub nearest: FilterReport,
-    pub split: FilterReport,
-}
 
 /// Both filters in every pose; milliseconds are medians. With `draws`, a ghost of each as well.
 pub fn voxels(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>, draws: bool) -> Experiment {
@@ -122,52 +105,4 @@ async fn draw_ghosts(lab: &mut Lab, settings: &Settings, number: usize) -> Resul
         lab.show(NamedPicture { name: format!("{stem}-{}", name_of(&filter)), picture, settings: settings.clone() });
     }
     Ok(())
-}
-
-impl VoxelRow {
-    const HEADS: [&'static str; 12] = [
-        "scene",
-        "clip",
-        "time s",
-        "turn °",
-        "grid",
-        "exact cells",
-        "nearest ms",
-        "nearest holes %",
-        "nearest spill %",
-        "split ms",
-        "split holes %",
-        "split spill %",
-    ];
-
-    pub(in crate::experiment) fn table(rows: &[Self]) -> Table {
-        Table::new("accuracy", &Self::HEADS, rows.iter().map(Self::cells))
-    }
-
-    fn cells(&self) -> Vec<String> {
-        let mut cells = vec![
-            self.scene.clone(),
-            self.clip.clone().unwrap_or_default(),
-            format!("{:.3}", self.time_secs),
-            turn(self.turn_degrees),
-            self.grid.to_string(),
-            self.exact.to_string(),
-        ];
-        let shown = |share: Option<f64>| share.map(|percent| format!("{percent:.3}")).unwrap_or_default();
-        let costs = |filter: &FilterReport| {
-            [format!("{:.2}", filter.kernel_ms), shown(self.holes_percent(filter)), shown(spill_percent(filter))]
-        };
-        cells.extend([&self.nearest, &self.split].into_iter().flat_map(costs));
-        cells
-    }
-
-    /// Of the exact cells; `None` where holes were not counted.
-    fn holes_percent(&self, filter: &FilterReport) -> Option<f64> {
-        Some(percent(filter.holes?, self.exact))
-    }
-}
-
-/// Of the cells that moved voxels reached; `None` where spill was not counted.
-fn spill_percent(filter: &FilterReport) -> Option<f64> {
-    Some(percent(filter.spill?, filter.leaves))
 }

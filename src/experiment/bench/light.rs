@@ -4,43 +4,18 @@
 use std::cell::{RefCell, RefMut};
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-
-use super::KernelReport;
-use super::sampling::{self, SamplingCost};
+use super::sampling;
+use crate::experiment::ExperimentError;
 use crate::experiment::board::Share;
 use crate::experiment::cost::Samples;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
-use crate::experiment::table::Table;
-use crate::experiment::{Cost, ExperimentError};
+use crate::experiment::rows::{KernelReport, MemoryReport};
 use crate::settings::lighting::{Opacity, Shadows};
 use crate::settings::{ColorBy, Lookup, Settings, View};
 
 /// Runs of cones, which take seconds each without a fast GPU.
 const CONE_RUNS: u32 = 1;
-
-#[derive(Clone, Default, Serialize)]
-pub struct LightReport {
-    pub passes: Vec<Cost>,
-    pub sampling: Vec<SamplingCost>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub memory: Option<MemoryReport>,
-}
-
-/// Bytes of the octree on screen and of its light, and how many a node has.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct MemoryReport {
-    /// Stored nodes, leaves and dummies included.
-    pub nodes: u64,
-    pub octree_bytes: u64,
-    pub light_bytes: u64,
-    pub block_pointer_bytes: u64,
-    pub node_pointer_bytes: u64,
-    pub bytes_per_node: f64,
-    /// With pointers stored with every node, as in the paper.
-    pub bytes_per_node_with_node_pointers: f64,
-}
 
 /// A way to light the octree, and the kernels in which it differs.
 struct Variant {
@@ -159,12 +134,4 @@ fn memory(lab: &Lab) -> Result<MemoryReport, ExperimentError> {
         bytes_per_node: bytes_per_node(block_pointer_bytes),
         bytes_per_node_with_node_pointers: bytes_per_node(node_pointer_bytes),
     })
-}
-
-impl LightReport {
-    pub(in crate::experiment) fn tables(&self) -> [Table; 2] {
-        let passes = Table::new("light", &Cost::HEADS, self.passes.iter().map(Cost::cells));
-        let sampling = self.sampling.iter().map(SamplingCost::cells);
-        [passes, Table::new("sampling", &SamplingCost::HEADS, sampling)]
-    }
 }

@@ -3,27 +3,22 @@
 //! The floor of a kernel is the bytes it must move over the bandwidth of a copy kernel measured in
 //! the same experiment; the ratio says how far above it the kernel is.
 
-mod copy;
-pub mod light;
+pub mod copy;
+pub mod copy_ref;
+mod light;
 mod rebuild;
 mod sampling;
-pub mod surfaces;
+mod surfaces;
 
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use serde::Serialize;
-
 use super::board::Share;
-use super::lab::Lab;
-use super::table::Table;
-use super::{Cost, Experiment, ExperimentError, LightReport, Subject, SurfaceReport};
+use super::lab::{Lab, PICTURE_PX};
+use super::rows::KernelReport;
+use super::{Experiment, ExperimentError, Subject};
 use crate::gpu::Gpu;
 use crate::settings::View;
-use crate::spread::Spread;
-
-/// As the window's picture, for kernels that draw.
-const SIZE_PX: [u32; 2] = [1280, 720];
 
 /// What is measured of the kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,36 +33,10 @@ pub struct BenchOptions {
     pub surfaces: bool,
 }
 
-#[derive(Clone, Serialize)]
-pub struct KernelReport {
-    pub scene: String,
-    pub warmup: u32,
-    pub runs: u32,
-    pub span: f64,
-    pub voxels: u64,
-    pub voxelize_ms: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub copy: Option<Cost>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub kernels: Vec<Cost>,
-    /// All kernels but those that draw, per rebuild.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rebuild: Option<Cost>,
-    /// From the request to the finished picture, by the clock.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frame_wall: Option<Spread>,
-    /// What light costs, by variant.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub light: Option<LightReport>,
-    /// What lit surfaces cost, by variant.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub surfaces: Option<SurfaceReport>,
-}
-
 /// Kernels over the voxels of a scene, all on one engine. It is called what its first part is.
 pub fn bench(gpu: &Arc<Gpu>, mut subject: Subject, options: BenchOptions) -> Experiment {
     subject.settings.method.look.view = View::Voxels;
-    subject.settings.shot.size_px = Some(SIZE_PX);
+    subject.settings.shot.size_px = Some(PICTURE_PX);
     let prepared = &subject.prepared;
     let report = KernelReport {
         scene: prepared.scene.name.clone(),
@@ -116,14 +85,4 @@ async fn measure(mut lab: Lab, report: &RefCell<KernelReport>, options: BenchOpt
         surfaces::measure(&mut lab, report, drawing).await?;
     }
     Ok(())
-}
-
-impl KernelReport {
-    pub(super) fn tables(&self) -> Vec<Table> {
-        let costs = self.kernels.iter().chain(&self.rebuild).chain(&self.copy);
-        let kernels = Table::new("kernels", &Cost::HEADS, costs.map(Cost::cells));
-        let more = self.light.iter().flat_map(LightReport::tables);
-        let kernels = Some(kernels).filter(|table| !table.rows.is_empty());
-        kernels.into_iter().chain(more).chain(self.surfaces.iter().map(SurfaceReport::table)).collect()
-    }
 }

@@ -2,13 +2,13 @@
 
 use std::cell::RefCell;
 
-use super::{KernelReport, SIZE_PX};
 use crate::engine::PassTiming;
 use crate::experiment::ExperimentError;
 use crate::experiment::board::Share;
 use crate::experiment::cost::Samples;
 use crate::experiment::frames::{Forget, Frames};
-use crate::experiment::lab::Lab;
+use crate::experiment::lab::{Lab, PICTURE_PX};
+use crate::experiment::rows::KernelReport;
 use crate::spread::Spread;
 
 /// Folder of the kernels that draw; the others rebuild.
@@ -32,7 +32,7 @@ pub async fn measure(
     let frames = Frames {
         what: "rebuilding",
         settings: &settings,
-        size_px: SIZE_PX,
+        size_px: PICTURE_PX,
         forget: Forget::Everything,
         warmup: lab.warmup,
         runs: lab.runs,

@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use serde::Serialize;
-
 use crate::experiment::ExperimentError;
 use crate::experiment::board::Share;
 use crate::experiment::cost::Samples;
 use crate::experiment::lab::{Lab, NO_PICTURE, pause};
+use crate::experiment::rows::SamplingCost;
 use crate::settings::{Lookup, Sampling, Settings, View};
 use crate::spread::Spread;
 use crate::stages::sample::Sampler;
@@ -20,18 +19,6 @@ const WIDEST_LOG2: f64 = 5.0;
 const RUNS: u32 = 5;
 const SAMPLINGS: [Sampling; 3] = [Sampling::Nearest, Sampling::Trilinear, Sampling::Quadrilinear];
 const LOOKUPS: [Lookup; 3] = [Lookup::Ranks, Lookup::BlockPointers, Lookup::NodePointers];
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SamplingCost {
-    pub sampling: Sampling,
-    pub lookup: Lookup,
-    /// Near occupied leaves, or anywhere in the grid.
-    pub near_leaves: bool,
-    #[serde(flatten)]
-    pub time: Spread,
-    pub million_samples_per_s: f64,
-    pub bytes: u64,
-}
 
 /// In the light of these settings; variants whose pointers do not fit are left out.
 pub async fn measure(
@@ -111,23 +98,4 @@ fn points(places: &[[f64; 3]], sampling: Sampling, depth: u32) -> Vec<[f32; 4]> 
         Sampling::Nearest | Sampling::Trilinear => f64::from(depth),
     };
     places.iter().enumerate().map(|(i, [x, y, z])| [*x as f32, *y as f32, *z as f32, at(i) as f32]).collect()
-}
-
-impl SamplingCost {
-    pub const HEADS: [&'static str; 5] = ["sampling", "nodes found by", "where", "median ms", "million samples/s"];
-
-    pub fn cells(&self) -> Vec<String> {
-        let lookup = match self.lookup {
-            Lookup::Ranks => "ranks",
-            Lookup::BlockPointers => "pointers a block",
-            Lookup::NodePointers => "pointers a node",
-        };
-        vec![
-            format!("{:?}", self.sampling).to_lowercase(),
-            lookup.to_owned(),
-            if self.near_leaves { "at leaves" } else { "anywhere" }.to_owned(),
-            format!("{:.1}", self.time.median_ms),
-            format!("{:.1}", self.million_samples_per_s),
-        ]
-    }
 }

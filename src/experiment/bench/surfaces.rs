@@ -3,38 +3,14 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-
-use super::{KernelReport, SIZE_PX};
 use crate::experiment::ExperimentError;
 use crate::experiment::board::Share;
 use crate::experiment::frames::{Forget, Frames, Times};
-use crate::experiment::lab::Lab;
+use crate::experiment::lab::{Lab, PICTURE_PX};
+use crate::experiment::rows::{KernelReport, SurfaceReport, VariantCost};
 use crate::experiment::surface_work::{self, SurfaceWork};
-use crate::experiment::table::Table;
-use crate::settings::{ConeTracing, Lookup, Sampling, Settings, SurfaceView, View};
+use crate::settings::{Lookup, Sampling, Settings, SurfaceView, View};
 use crate::spread::Spread;
-
-#[derive(Clone, Debug, Serialize)]
-pub struct SurfaceReport {
-    pub size_px: [u32; 2],
-    pub variants: Vec<VariantCost>,
-}
-
-/// Median times of a way to light surfaces.
-#[derive(Clone, Debug, Serialize)]
-pub struct VariantCost {
-    pub name: &'static str,
-    pub cones: ConeTracing,
-    /// Of kernels that nothing but surfaces needs.
-    pub kernels_ms: BTreeMap<String, f64>,
-    /// Diffuse cones and filter.
-    pub diffuse_ms: f64,
-    /// Of all kernels behind surfaces, per run.
-    pub total: Spread,
-    #[serde(skip)]
-    pub works_ms: BTreeMap<SurfaceWork, f64>,
-}
 
 type Change = fn(&mut Settings);
 
@@ -63,7 +39,7 @@ const VARIANTS: [(&str, Change); 18] = [
 ];
 
 pub async fn measure(lab: &mut Lab, report: &RefCell<KernelReport>, share: Share) -> Result<(), ExperimentError> {
-    report.borrow_mut().surfaces = Some(SurfaceReport { size_px: SIZE_PX, variants: Vec::new() });
+    report.borrow_mut().surfaces = Some(SurfaceReport { size_px: PICTURE_PX, variants: Vec::new() });
     let mut shown = lab.settings.clone();
     (shown.method.look.view, shown.method.look.surface) = (View::Surfaces, SurfaceView::Final);
     for (index, (name, change)) in VARIANTS.into_iter().enumerate() {
@@ -83,8 +59,14 @@ async fn measure_variant(
     share: Share,
 ) -> Result<VariantCost, ExperimentError> {
     let (mut times, mut totals) = (Times::default(), Vec::new());
-    let frames =
-        Frames { what: name, settings, size_px: SIZE_PX, forget: Forget::Surfaces, warmup: lab.warmup, runs: lab.runs };
+    let frames = Frames {
+        what: name,
+        settings,
+        size_px: PICTURE_PX,
+        forget: Forget::Surfaces,
+        warmup: lab.warmup,
+        runs: lab.runs,
+    };
     lab.measure(frames, share, |engine, _| {
         times.add(surface_work::kernels(engine.timings()));
         totals.push(SurfaceWork::sum_ms(&SurfaceWork::ALL, engine.timings()));
@@ -106,17 +88,4 @@ async fn measure_variant(
         total: Spread::of(&totals).ok_or_else(|| ExperimentError::NoTimes(name.to_owned()))?,
         works_ms,
     })
-}
-
-impl SurfaceReport {
-    pub(in crate::experiment) fn table(&self) -> Table {
-        let heads: Vec<&str> =
-            ["ms"].into_iter().chain(SurfaceWork::ALL.map(SurfaceWork::name)).chain(["total"]).collect();
-        let rows = self.variants.iter().map(|variant| {
-            let works = SurfaceWork::ALL.map(|work| variant.works_ms.get(&work).copied().unwrap_or(0.0));
-            let numbers = works.into_iter().chain([variant.total.median_ms]).map(|ms| format!("{ms:.1}"));
-            [variant.name.to_owned()].into_iter().chain(numbers).collect()
-        });
-        Table::new("surfaces", &heads, rows)
-    }
 }

@@ -6,24 +6,16 @@
 
 pub mod character;
 mod courtyard;
+mod error;
 pub mod exact;
 pub mod glb;
 pub mod shapes;
 pub mod textures;
 
+pub use error::MakeError;
+
 /// Names that [`make`] and [`bytes`] know.
 pub const NAMES: &[&str] = &["courtyard"];
-
-/// Why a scene was not made.
-#[derive(Debug, thiserror::Error)]
-pub enum MakeError {
-    #[error("a picture of the scene: {0}")]
-    Picture(#[from] image::ImageError),
-    #[error("the scene's JSON: {0}")]
-    Json(#[from] gltf::json::Error),
-    #[error("the scene's file: {0}")]
-    File(#[from] gltf::Error),
-}
 
 /// Generates a scene as the bytes of a `.glb` file; `None` for an unknown name.
 pub fn make(name: &str) -> Option<Result<Vec<u8>, MakeError>> {

@@ -133,9 +133,15 @@ impl<'ast> Visit<'ast> for File {
     fn visit_item_mod(&mut self, item: &'ast syn::ItemMod) {
         let is_test = item.attrs.iter().any(|attribute| attribute.path().is_ident("cfg"));
         if !is_test {
+            // Ways up begin inside of it.
+            self.module.push(item.ident.to_string());
             syn::visit::visit_item_mod(self, item);
+            self.module.pop();
         }
     }
+
+    /// Whom something is shown to is not imported.
+    fn visit_visibility(&mut self, _: &'ast syn::Visibility) {}
 
     fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
         self.tree(&item.tree, &[], !matches!(item.vis, syn::Visibility::Inherited));

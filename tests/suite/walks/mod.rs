@@ -5,6 +5,7 @@
 //! `OCTOLUME_WALKS=5000 cargo test --test suite walks` for more than the suite's own; `OCTOLUME_WALKS=862..863` for some.
 
 mod changes;
+mod difference;
 pub mod scenes;
 mod walker;
 

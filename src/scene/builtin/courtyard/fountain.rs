@@ -8,8 +8,8 @@ use super::super::glb::{ClipWriter, GlbPart, GlbWriter, Track};
 use super::super::shapes::Shape;
 use super::super::shapes::round::{cylinder, lathe, torus};
 use super::super::shapes::solid::{bevelled_block, icosphere, sphere};
-use super::WALK_SECS;
 use super::palette::Palette;
+use super::walk::WALK_SECS;
 
 /// Centre of the armillary sphere above the ground.
 const HEART: f64 = 2.36;

@@ -8,10 +8,10 @@ use super::super::shapes::Shape;
 use super::super::shapes::architecture::{Drape, cloth};
 use super::super::shapes::round::{cylinder, lathe, torus};
 use super::super::shapes::solid::{bevelled_block, icosphere, sphere};
-use super::WALK_SECS;
 use super::building::{ARCH_RADIUS, ARCH_THICKNESS, BACK_Z, BAY, SIDE_X, SPRING, WALL};
 use super::fountain::turn_evenly;
 use super::palette::Palette;
+use super::walk::WALK_SECS;
 use crate::scene::Trs;
 
 pub fn add(glb: &mut GlbWriter, palette: &Palette, walk: &mut ClipWriter) {

@@ -10,22 +10,20 @@ mod fountain;
 mod furnishing;
 mod palette;
 mod traveller;
+mod walk;
 mod walls;
 
 use glam::{DMat3, DQuat, DVec3};
 
 use super::MakeError;
 use super::exact::at;
-use super::glb::{ClipWriter, GlbWriter};
+use super::glb::GlbWriter;
 use crate::scene::Trs;
 use palette::Palette;
 
-/// Length of the clip `walk`.
-const WALK_SECS: f64 = 10.0;
-
 pub fn make() -> Result<Vec<u8>, MakeError> {
     let mut glb = GlbWriter::default();
-    let mut walk = ClipWriter::new("walk");
+    let mut walk = walk::clip();
     let palette = Palette::new(&mut glb)?;
     building::add(&mut glb, &palette);
     walls::add(&mut glb, &palette);

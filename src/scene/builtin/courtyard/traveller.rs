@@ -3,8 +3,8 @@
 use super::super::character::add_person;
 use super::super::character::gait::{Circle, wave};
 use super::super::glb::{ClipWriter, GlbWriter};
-use super::WALK_SECS;
 use super::palette::Palette;
+use super::walk::WALK_SECS;
 
 /// One lap of `walk`; at its start the traveller comes towards the camera.
 const PATH: Circle = Circle { radius_m: 2.2, lap_secs: WALK_SECS, strides: 11.0, start_radians: -1.95 };

@@ -1,0 +1,79 @@
+//! Opens the window, and opens it again where its GPU is lost.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use anyhow::anyhow;
+
+use super::rescue::{Kept, Rescue};
+use super::{App, NoApp, Start, device};
+use crate::settings::NodeNames;
+
+/// A device that is lost sooner than this after the last one is not replaced.
+const WORTH_ANOTHER_DEVICE: Duration = Duration::from_secs(10);
+
+/// Opens the window on a file, or on a built-in scene by its name, and returns when it is closed.
+/// Without a display, or a GPU for it, the error is one sentence. When the GPU is lost, the window
+/// is opened again on a new device, with scene and settings kept.
+pub fn run(scene: &Path, start: Start, adapter: Option<&str>) -> anyhow::Result<()> {
+    if !device::has_display() {
+        return Err(anyhow!("there is no display to open a window on; the subcommands work without one"));
+    }
+    let rescue = Rescue::default();
+    let mut opened = Instant::now();
+    open_window(adapter, &rescue, |context| App::new(context, scene, start))?;
+    while let Some(kept) = rescue.take() {
+        if opened.elapsed() < WORTH_ANOTHER_DEVICE {
+            return Err(anyhow!("{}", kept.cause));
+        }
+        opened = Instant::now();
+        open_window(adapter, &rescue, |context| App::again(context, kept))?;
+    }
+    Ok(())
+}
+
+fn open_window(
+    adapter: Option<&str>,
+    rescue: &Rescue,
+    app: impl FnOnce(&eframe::CreationContext<'_>) -> Result<App, NoApp>,
+) -> anyhow::Result<()> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default().with_inner_size([1440.0, 900.0]).with_min_inner_size([640.0, 400.0]),
+        renderer: eframe::Renderer::Wgpu,
+        wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: device::setup(adapter), ..Default::default() },
+        ..Default::default()
+    };
+    let create: eframe::AppCreator<'_> = Box::new(move |context| {
+        let mut app = app(context)?;
+        app.rescue = rescue.clone();
+        Ok(Box::new(app))
+    });
+    eframe::run_native("Octolume", options, create).map_err(|error| match error {
+        eframe::Error::WinitEventLoop(_) => anyhow!("the display cannot be opened; the subcommands work without one"),
+        error => anyhow!("no window can be opened: {error}"),
+    })
+}
+
+impl App {
+    /// Closes the window if its GPU is lost; whether it is. Nothing is painted then: egui-wgpu panics
+    /// when it uploads anything to a lost device.
+    pub(super) fn close_if_lost(&mut self, ctx: &egui::Context) -> bool {
+        // A loss is told to those who poll; what else this returns is of no use here.
+        let _ = self.gpu().device.poll(wgpu::PollType::Poll);
+        if !self.gpu().is_lost() {
+            return false;
+        }
+        let cause = "the GPU was lost".to_owned();
+        let (opening, disk) = self.loader.choices();
+        let start = Start { settings: self.settings.clone(), names: NodeNames::default(), opening, disk };
+        self.rescue.leave(Kept { start, scene: self.scene.clone(), cause });
+        ctx.graphics_mut(|painted| *painted = Default::default());
+        ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        true
+    }
+
+    /// What the next window goes on with, if this one lost its GPU.
+    pub fn rescued(&self) -> Option<Kept> {
+        self.rescue.take()
+    }
+}
