@@ -64,7 +64,7 @@ impl Plan {
             change.apply(&mut settings);
             session.engine.request(&settings, NO_PICTURE)?;
         }
-        output::warnings(&session.engine.left_out());
+        output::warnings(session.engine.left_out());
         let plan = session.engine.plan();
         if self.json {
             return output::json(plan);

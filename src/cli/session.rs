@@ -126,7 +126,7 @@ fn open_scene(scene: &Path, options: &OpenOptions) -> anyhow::Result<Scene> {
 
 fn take_gpu(common: &Common) -> anyhow::Result<Engine> {
     let gpu = Gpu::headless(&SHADERS, common.adapter.as_deref())?;
-    output::warnings(&gpu.warnings());
+    output::warnings(gpu.warnings());
     Ok(Engine::new(Arc::new(gpu)))
 }
 

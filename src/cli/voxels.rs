@@ -64,7 +64,7 @@ impl Voxels {
         let surface = output::with_progress("voxelizing the posed mesh", |progress| {
             prepared.exact_voxels(&settings.shot.motion, &hidden, progress)
         })?;
-        output::warnings(&prepared.past_clip(&settings.shot.motion));
+        output::warnings(prepared.past_clip(&settings.shot.motion));
         output::warnings(&surface.warnings);
         Ok((exact_cells(&surface.voxels), prepared.grid))
     }

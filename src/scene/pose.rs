@@ -27,7 +27,9 @@ fn leaves_area(linear: &DMat3) -> bool {
     // Relative to its size, so that a matrix of rank 1 has none whatever its rounding.
     let size = a.length_squared() + b.length_squared() + c.length_squared();
     let area = a.cross(b).length_squared() + b.cross(c).length_squared() + c.cross(a).length_squared();
-    !(area <= LEAST_AREA_SHARE * size * size)
+    let is_none = area <= LEAST_AREA_SHARE * size * size;
+    // False for what is not finite.
+    !is_none
 }
 
 /// Of the squared size of a matrix: what rounding leaves of an area that is none.
