@@ -51,7 +51,8 @@ impl Desk {
     /// Opens the desktop's dialog, on a thread of its own because some never answer. One at a time.
     pub fn choose_file(&mut self, ctx: &egui::Context) {
         if self.dialog.is_none() {
-            let dialog = rfd::AsyncFileDialog::new().set_title("Open a scene").add_filter("glTF", &["gltf", "glb"]);
+            let dialog = rfd::AsyncFileDialog::new().set_title("Open a scene, or a picture of one");
+            let dialog = dialog.add_filter("glTF, pictures", &["gltf", "glb", "png", "json"]);
             let chosen = dialog.pick_file();
             self.dialog =
                 Some(Background::start(ctx, move |_| pollster::block_on(chosen).map(|file| file.path().to_owned())));

@@ -35,6 +35,7 @@ mod reference;
 mod rescue;
 mod run;
 mod scale_ticks;
+mod restoring;
 mod screenshots;
 mod selection;
 mod shortcuts;
@@ -56,6 +57,7 @@ pub use self::pace::Pace;
 use self::playback::Playback;
 pub use self::rescue::Kept;
 use self::rescue::Rescue;
+use self::restoring::Restored;
 pub use self::run::run;
 use self::screenshots::Screenshots;
 use self::stage::Stage;
@@ -84,6 +86,8 @@ pub struct App {
     screenshots: Screenshots,
     desk: Desk,
     undo: Undo,
+    /// What a picture has set, until its scene is open.
+    restored: Option<Restored>,
     /// What the first scene is to hide, by name.
     names: NodeNames,
     journal: Journal,
@@ -132,6 +136,7 @@ impl App {
             screenshots: Screenshots::default(),
             desk: Desk::default(),
             undo: Undo::default(),
+            restored: None,
             names: start.names,
             view_px: [1, 1],
             journal: Journal::default(),

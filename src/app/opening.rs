@@ -6,6 +6,7 @@ use super::inspector::Pin;
 use super::journal::Severity;
 use super::loader::Ready;
 use super::panels::tree::TreeState;
+use super::restoring::holds_settings;
 use super::undo::Undo;
 use super::{App, panels};
 use crate::prepare::{Preparation, Prepared};
@@ -15,8 +16,11 @@ use crate::scene::load::SceneChoice;
 use crate::settings::{Fit, MotionSettings, NodeNames, Visibility};
 
 impl App {
-    /// `shown`: which of several scenes in the file.
+    /// A scene, or a picture that tells of one. `shown`: which of several scenes in the file.
     pub(super) fn open(&mut self, ctx: &egui::Context, path: PathBuf, shown: Option<SceneChoice>) {
+        if holds_settings(&path) {
+            return self.restore(ctx, &path);
+        }
         // A span, a pose and a camera of one scene mean nothing in another.
         if self.scene.is_some() {
             self.settings.method.discretization.span = None;
@@ -102,8 +106,12 @@ impl App {
             }
         }
         self.stage.set_prepared(prepared);
-        let opens_with_its_camera = ready.is_new && self.settings.shot.camera.is_none();
+        let is_new = ready.is_new;
         self.scene = Some(ready);
+        if is_new {
+            self.finish_restoring();
+        }
+        let opens_with_its_camera = is_new && self.settings.shot.camera.is_none();
         if opens_with_its_camera {
             self.look_through(0);
         }

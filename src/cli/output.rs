@@ -8,9 +8,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::Context;
+use image::RgbaImage;
 use indicatif::{ProgressBar, ProgressStyle};
 use octolume::experiment::Table;
+use octolume::export;
 use octolume::progress::Progress;
+use octolume::settings::Settings;
 use serde::Serialize;
 
 /// Writes a result. A reader that has read enough (`| head`) is no error.
@@ -120,6 +123,23 @@ pub fn with_progress<T>(what: &'static str, work: impl FnOnce(&Progress) -> T) -
 }
 
 /// A picture of light as it is.
+/// Whether a file stands for standard output.
+pub fn is_standard(file: &Path) -> bool {
+    file.as_os_str() == "-"
+}
+
+/// Writes a PNG with its settings, to standard output where the file is `-`.
+pub fn picture(file: &Path, picture: &RgbaImage, settings: &Settings) -> anyhow::Result<()> {
+    if !is_standard(file) {
+        return Ok(export::write_png(file, picture, settings)?);
+    }
+    let bytes = export::png_bytes(file, picture, settings)?;
+    match io::stdout().lock().write_all(&bytes) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error).context("standard output"),
+        _ => Ok(()),
+    }
+}
+
 pub fn is_exr(file: &Path) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"))
 }

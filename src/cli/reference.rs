@@ -86,5 +86,5 @@ fn write(film: &Film, settings: &Settings, file: &Path) -> anyhow::Result<()> {
         return Ok(export::write_exr(file, film.size_px(), &light)?);
     }
     let picture = Display::new(&settings.method.look, part, &light).picture(&light, film.size_px());
-    Ok(export::write_png(file, &image::DynamicImage::from(picture).into_rgba8(), settings)?)
+    output::picture(file, &image::DynamicImage::from(picture).into_rgba8(), settings)
 }

@@ -23,7 +23,7 @@ pub struct Render {
     /// A .gltf or .glb file, or the name of a built-in scene
     scene: PathBuf,
     /// The .png file to write, or with a view of surfaces .exr: linear, unclamped; with --frames, -0000 and so
-    /// on goes before its extension
+    /// on goes before its extension; - writes a PNG to standard output
     #[arg(short, long, value_name = "OUT.png|OUT.exr")]
     output: PathBuf,
     /// Pixels; otherwise as --settings says, or 1280x720
@@ -81,11 +81,25 @@ impl Render {
         if self.reference.reference {
             self.reference.choose_view(&mut settings, self.look.names_view())?;
         }
+        self.check_output()?;
         if output::is_exr(&self.output) && settings.method.look.view != View::Surfaces {
             let cause = "an .exr file holds linear light, which only views of surfaces give, such as --view final";
             return Err(Usage(cause.to_owned()).into());
         }
         Ok(settings)
+    }
+
+    /// A picture is PNG or OpenEXR, by its name; `-` is standard output.
+    fn check_output(&self) -> Result<(), Usage> {
+        let file = self.output.display();
+        let is_png = self.output.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
+        match output::is_standard(&self.output) {
+            true if self.frames.is_some() => Err(Usage("frames need a file each, and - is standard output".to_owned())),
+            false if !is_png && !output::is_exr(&self.output) => {
+                Err(Usage(format!("{file} ends in neither .png nor .exr")))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn size_px(&self, settings: &Settings) -> [u32; 2] {
@@ -114,7 +128,7 @@ fn draw(session: &mut Session, settings: &Settings, size_px: [u32; 2], file: &Pa
         let light = session.engine.read_surfaces()?.unwrap_or_else(nothing);
         return Ok(export::write_exr(file, size_px, &light)?);
     }
-    Ok(export::write_png(file, &session.engine.read_image()?, settings)?)
+    output::picture(file, &session.engine.read_image()?, settings)
 }
 
 /// `walk.png` → `walk-0007.png`.

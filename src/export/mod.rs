@@ -7,7 +7,7 @@ mod voxel_file;
 use std::path::{Path, PathBuf};
 
 pub use light_file::write_exr;
-pub use picture::{read_settings, write_png};
+pub use picture::{png_bytes, read_settings, write_png};
 pub use voxel_file::{write_npz, write_ply};
 
 /// One sentence naming file and cause.

@@ -14,11 +14,15 @@ const KEYWORD: &str = "octolume-settings";
 
 /// Writes a picture with 8-bit sRGB colours and the settings that made it, its size among them.
 pub fn write_png(file: &Path, picture: &RgbaImage, settings: &Settings) -> Result<(), ExportError> {
+    write_file(file, &png_bytes(file, picture, settings)?)
+}
+
+/// The bytes of [`write_png`]; `file` stands for them in messages.
+pub fn png_bytes(file: &Path, picture: &RgbaImage, settings: &Settings) -> Result<Vec<u8>, ExportError> {
     let mut settings = settings.clone();
     settings.shot.size_px = Some(picture.dimensions().into());
     let settings = settings.to_json().map_err(|error| ExportError::new(file, error))?;
-    let bytes = encode(picture, settings).map_err(|error| ExportError::new(file, error))?;
-    write_file(file, &bytes)
+    encode(picture, settings).map_err(|error| ExportError::new(file, error))
 }
 
 fn encode(picture: &RgbaImage, settings: String) -> Result<Vec<u8>, png::EncodingError> {

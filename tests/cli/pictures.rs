@@ -125,3 +125,28 @@ fn frames_are_pictures_of_moments() {
     let moment = render(&scene, &scenes.path("moment.png"), &[&small[..], &["--time", "0.4"]].concat());
     assert!(fourth == moment, "frame 4 at 10 frames a second is the moment 0.4 s");
 }
+
+#[test]
+fn standard_output_takes_the_same_bytes_as_a_file() {
+    let scenes = Scenes::new();
+    let scene = scenes.bent_box();
+    let file = render(&scene, &scenes.path("out.png"), &["--size", "40x30"]);
+    let start = [OsStr::new("render"), scene.as_os_str(), OsStr::new("-o"), OsStr::new("-")];
+    let output = crate::octolume(start.into_iter().chain(["--size", "40x30"].map(OsStr::new)));
+    assert!(output.status.success() && output.stdout == file);
+}
+
+#[test]
+fn a_grid_fits_what_it_is_told_to() {
+    let scenes = Scenes::new();
+    let scene = scenes.bent_box();
+    let span = |options: &[&str]| {
+        let start =
+            [OsStr::new("info"), scene.as_os_str(), OsStr::new("--json"), OsStr::new("--grid"), OsStr::new("64")];
+        let json = succeed(start.into_iter().chain(options.iter().map(OsStr::new)));
+        serde_json::from_str::<serde_json::Value>(&json).expect("JSON")["span"].as_f64().expect("a number")
+    };
+    assert_eq!(span(&["--fit", "0,0,0:62,1,1"]), 1.0);
+    let [pose, clip, all] = [["--fit", "pose"], ["--fit", "clip"], ["--fit", "scene"]].map(|options| span(&options));
+    assert!(pose <= clip && clip <= all, "{pose} {clip} {all}");
+}

@@ -42,7 +42,7 @@ fn a_folder_is_no_scene() {
 
 #[test]
 fn values_out_of_range_name_the_range() {
-    let cases: [(&[&str], &str); 12] = [
+    let cases: [(&[&str], &str); 18] = [
         (&["info", "courtyard", "--grid", "100"], "[64, 128, 256, 512, 1024]"),
         (&["info", "courtyard", "--span", "-1"], "a finite number above 0"),
         (&["info", "courtyard", "--span", "inf"], "finite number"),
@@ -55,6 +55,12 @@ fn values_out_of_range_name_the_range() {
         (&["render", "courtyard", "-o", "x.png", "--eye", "1,2,3", "--target", "1,2,3"], "must differ"),
         (&["render", "courtyard", "-o", "x.png", "--eye", "1,2,3", "--target", "0,0,0", "--fov", "180"], "1 to 170"),
         (&["bench", "courtyard", "--runs", "0"], "1..=10000"),
+        (&["info", "courtyard", "--fit", "all"], "scene, clip, pose, selection or a box"),
+        (&["info", "courtyard", "--fit", "0,0,0:1,1"], "scene, clip, pose, selection or a box"),
+        (&["info", "courtyard", "--fit", "0,0,0:1,0,1"], "no finite extent along each axis"),
+        (&["render", "courtyard", "-o", "x.jpg"], "x.jpg ends in neither .png nor .exr"),
+        (&["render", "courtyard", "-o", "x"], "ends in neither .png nor .exr"),
+        (&["render", "courtyard", "-o", "-", "--frames", "0:1", "--fps", "1"], "frames need a file each"),
     ];
     for (arguments, range) in cases {
         let errors = fail(2, arguments);

@@ -16,6 +16,14 @@ impl Window {
         self.0.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(file)));
     }
 
+    /// The same, until it is open.
+    fn open_by_drop(&mut self, file: PathBuf) {
+        self.drop_file(file);
+        self.0.step();
+        self.settle();
+        self.outlast_notes();
+    }
+
     /// Cancels what is going on as soon as the window offers to, which it does within a few frames.
     fn cancel_at_once(&mut self) {
         for _ in 0..10 {
@@ -119,4 +127,39 @@ fn of_several_scenes_in_a_file_another_can_be_shown() {
     window.outlast_notes();
     assert_changed(&day, &window.view(), "the other scene");
     assert_eq!(window.log_count("Opened scenes"), 2);
+}
+
+#[test]
+fn a_picture_that_is_dropped_brings_back_scene_and_settings() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = write(folder.path(), "flight", &[0], vec![json!({ "mesh": 0 })], Some([[0.0; 3], [1.0, 0.5, 0.0]]));
+    let mut window = Window::open(&file.display().to_string());
+    window.type_into("Save to", &folder.path().display().to_string());
+    window.click("Nearest");
+    window.set("Level", 5.0);
+    window.click("Screenshot");
+    let picture = folder.path().join("octolume-flight-1.png");
+    let saved = read_settings(&picture).expect("settings in the picture");
+    window.click("Split");
+    window.open_by_drop(picture.clone());
+    assert_eq!(window.app().settings().method, saved.method, "the scene is open: its settings come back");
+    // From another scene, and without the file where it was.
+    window.open_by_drop("courtyard".into());
+    let elsewhere = folder.path().join("elsewhere");
+    std::fs::create_dir(&elsewhere).expect("made");
+    for name in ["flight.gltf", "flight.bin"] {
+        std::fs::rename(folder.path().join(name), elsewhere.join(name)).expect("moved");
+    }
+    window.open_by_drop(picture.clone());
+    assert!(window.log_holds("which is not there: the next scene opened gets its settings"));
+    window.open_by_drop(elsewhere.join("flight.gltf"));
+    assert_eq!(window.app().settings().method, saved.method);
+    assert_eq!(window.app().settings().shot.camera, saved.shot.camera);
+    // Beside the picture it is found without being asked for.
+    let moved = elsewhere.join("shot.png");
+    std::fs::rename(&picture, &moved).expect("moved");
+    window.open_by_drop("courtyard".into());
+    window.open_by_drop(moved);
+    assert_eq!(window.app().settings().method, saved.method);
+    assert_eq!(window.log_count("Everything is as in"), 3);
 }
