@@ -6,7 +6,7 @@ use super::inspector::Pin;
 use super::journal::Severity;
 use super::loader::Ready;
 use super::panels::tree::TreeState;
-use super::restoring::holds_settings;
+use super::restored::holds_settings;
 use super::undo::Undo;
 use super::{App, panels};
 use crate::prepare::{Preparation, Prepared};
