@@ -10,7 +10,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::experiment::{self, BenchOptions, Experiment, Report, State, Subject};
+use crate::experiment::{self, BenchOptions, Experiment, Report, State, Subject, Table};
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
 use crate::settings::{Look, Settings, View};
@@ -102,7 +102,12 @@ pub struct Measuring {
     /// Of the experiment on its way, else of the last one.
     measured: Option<Measured>,
     report: Option<Report>,
+    tables: Vec<Table>,
+    /// Those of the experiment that the report has.
+    changes: u64,
     is_of_shown: bool,
+    /// What that was found out with.
+    seen: Option<(Arc<Prepared>, Settings)>,
 }
 
 impl Default for Measuring {
@@ -114,7 +119,10 @@ impl Default for Measuring {
             running: None,
             measured: None,
             report: None,
+            tables: Vec::new(),
+            changes: 0,
             is_of_shown: false,
+            seen: None,
         }
     }
 }
@@ -132,7 +140,7 @@ impl Measuring {
         self.is_ordered = false;
         if let Some(mut experiment) = self.running.take() {
             experiment.cancel();
-            self.report = Some(experiment.report());
+            self.take_report(&experiment);
         }
     }
 
@@ -140,20 +148,38 @@ impl Measuring {
     pub fn follow(&mut self, ctx: &egui::Context, shown: &ShownScene<'_>) -> (Vec<String>, Result<(), String>) {
         if std::mem::take(&mut self.is_ordered) {
             let measured = Measured::new(shown.prepared, shown.settings, self.measure);
-            self.running = Some(measured.begin(shown.gpu, self.runs));
-            self.measured = Some(measured);
+            let experiment = measured.begin(shown.gpu, self.runs);
+            self.take_report(&experiment);
+            (self.running, self.measured, self.seen) = (Some(experiment), Some(measured), None);
         }
-        let now = self.measured.as_ref().map(|of| Measured::new(shown.prepared, shown.settings, of.measure));
-        self.is_of_shown = now == self.measured;
-        let Some(experiment) = &mut self.running else { return (Vec::new(), Ok(())) };
+        self.compare(shown);
+        let Some(mut experiment) = self.running.take() else { return (Vec::new(), Ok(())) };
         let advanced = experiment.advance(shown.budget).map_err(|error| error.to_string());
         let remarks = experiment.take_remarks().into_iter().map(|remark| remark.sentence().to_owned()).collect();
-        self.report = Some(experiment.report());
-        if experiment.state() != State::Working {
-            self.running = None;
+        let is_over = experiment.state() != State::Working;
+        if is_over || experiment.changes() != self.changes {
+            self.take_report(&experiment);
         }
+        self.running = (!is_over).then_some(experiment);
         ctx.request_repaint();
         (remarks, advanced.map(drop))
+    }
+
+    fn take_report(&mut self, experiment: &Experiment) {
+        let report = experiment.report();
+        (self.changes, self.tables, self.report) = (experiment.changes(), report.tables(), Some(report));
+    }
+
+    /// Whether the report is of what is shown: found out anew where another scene or other settings are shown.
+    fn compare(&mut self, shown: &ShownScene<'_>) {
+        let Some(measured) = &self.measured else { return };
+        let is_shown = |(prepared, settings): &(Arc<Prepared>, Settings)| {
+            Arc::ptr_eq(prepared, shown.prepared) && settings == shown.settings
+        };
+        if !self.seen.as_ref().is_some_and(is_shown) {
+            self.is_of_shown = *measured == Measured::new(shown.prepared, shown.settings, measured.measure);
+            self.seen = Some((Arc::clone(shown.prepared), shown.settings.clone()));
+        }
     }
 
     /// How far it is between 0 and 1, and what it does.
@@ -164,6 +190,11 @@ impl Measuring {
     /// Of the experiment on its way as far as it is, else of the last one.
     pub fn report(&self) -> Option<&Report> {
         self.report.as_ref()
+    }
+
+    /// Of the report.
+    pub fn tables(&self) -> &[Table] {
+        &self.tables
     }
 
     /// Whether the report is of what is shown.

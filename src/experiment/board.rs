@@ -1,6 +1,7 @@
 //! What a procedure and the one who advances it tell each other.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, Ref, RefCell, RefMut};
+use std::rc::Rc;
 use std::time::Duration;
 
 use image::RgbaImage;
@@ -41,12 +42,36 @@ pub(super) struct Board {
     pub waits_for_thread: Cell<bool>,
     pub remarks: RefCell<Vec<Remark>>,
     pub pictures: RefCell<Vec<NamedPicture>>,
+    /// Counts the changes of what was found.
+    pub changes: Cell<u64>,
 }
 
 impl Board {
     /// A frame that begins again, and a total that grows, are no step back.
     pub fn reach(&self, share: Share, fraction: f32) {
         self.fraction.set(self.fraction.get().max(share.at(fraction.clamp(0.0, 1.0))));
+    }
+}
+
+/// What a procedure has found so far.
+pub(super) struct Findings<R> {
+    rows: RefCell<R>,
+    board: Rc<Board>,
+}
+
+impl<R> Findings<R> {
+    pub fn new(rows: R, board: Rc<Board>) -> Self {
+        Self { rows: RefCell::new(rows), board }
+    }
+
+    pub fn borrow(&self) -> Ref<'_, R> {
+        self.rows.borrow()
+    }
+
+    /// Counts as a change.
+    pub fn borrow_mut(&self) -> RefMut<'_, R> {
+        self.board.changes.update(|changes| changes + 1);
+        self.rows.borrow_mut()
     }
 }
 

@@ -23,7 +23,6 @@ mod subject;
 mod surface_work;
 mod table;
 
-use std::cell::RefCell;
 use std::pin::Pin;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -46,7 +45,7 @@ pub use subject::Subject;
 pub use surface_work::SurfaceWork;
 pub use table::Table;
 
-use board::Board;
+use board::{Board, Findings};
 use lab::Lab;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,10 +77,11 @@ impl Experiment {
         gpu: &Arc<Gpu>,
         (name, subject): (&'static str, Subject),
         rows: R,
-        procedure: impl AsyncFnOnce(Lab, Rc<RefCell<R>>) -> Result<(), ExperimentError> + 'static,
+        procedure: impl AsyncFnOnce(Lab, Rc<Findings<R>>) -> Result<(), ExperimentError> + 'static,
     ) -> Self {
         let head = Report::new(name, &gpu.info, &subject.settings, rows.clone().into());
-        let (board, rows) = (Rc::new(Board::default()), Rc::new(RefCell::new(rows)));
+        let board = Rc::new(Board::default());
+        let rows = Rc::new(Findings::new(rows, Rc::clone(&board)));
         let lab = Lab::new(Arc::clone(gpu), subject, Rc::clone(&board));
         let shared = Rc::clone(&rows);
         Self {
@@ -146,6 +146,11 @@ impl Experiment {
     /// What was drawn since the last call.
     pub fn take_pictures(&self) -> Vec<NamedPicture> {
         self.board.pictures.take()
+    }
+
+    /// Grows with every change of what was found.
+    pub fn changes(&self) -> u64 {
+        self.board.changes.get()
     }
 
     /// What was found so far.

@@ -112,10 +112,12 @@ fn a_cancelled_experiment_keeps_its_rows_and_drops_its_engine() {
     };
     let mut experiment = experiment::voxels(&gpu, subject(), poses(), false);
     while rows(&experiment).is_empty() {
+        assert_eq!(experiment.changes(), 0, "nothing is found yet");
         assert_eq!(experiment.advance(SLICE).expect("runs"), State::Working);
         experiment.wait().expect("the GPU is there");
     }
     let first = rows(&experiment);
+    assert_eq!(experiment.changes(), 1);
     assert!(gpu.bytes_in_use() > 0 && !experiment.report().cancelled);
     experiment.cancel();
     assert_eq!(experiment.advance(SLICE).expect("nothing runs"), State::Cancelled);

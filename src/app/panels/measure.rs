@@ -81,7 +81,7 @@ fn report_ui(ui: &mut Ui, (measuring, report): (&Measuring, &Report), orders: &m
     if report.cancelled {
         ui.label(RichText::new("It was cancelled: rows are missing.").color(theme::WARNING));
     }
-    for table in report.tables().iter().filter(|table| !table.rows.is_empty()) {
+    for table in measuring.tables().iter().filter(|table| !table.rows.is_empty()) {
         table_ui(ui, table);
     }
     ui.horizontal(|ui| {

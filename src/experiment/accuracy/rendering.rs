@@ -3,7 +3,6 @@
 //! Every term is compared at the pixels' centres. Without bounces in the octree, the truth is the path
 //! tracer's first bounce; with any, all of them.
 
-use std::cell::RefCell;
 use std::sync::Arc;
 
 use image::DynamicImage;
@@ -14,7 +13,7 @@ use super::{picture_stem, posed};
 use crate::accuracy::path_tracer::{Film, Options, Term};
 use crate::accuracy::picture_error::{self, Display, LightPixel, difference_map, difference_scale};
 use crate::disk_cache::DiskCache;
-use crate::experiment::board::Share;
+use crate::experiment::board::{Findings, Share};
 use crate::experiment::frames::{Forget, Frames, Times};
 use crate::experiment::lab::Lab;
 use crate::experiment::rows::RenderingRow;
@@ -94,7 +93,7 @@ async fn compare(
     lab: &mut Lab,
     mut settings: Settings,
     case: Case<'_>,
-    rows: &RefCell<Vec<RenderingRow>>,
+    rows: &Findings<Vec<RenderingRow>>,
 ) -> Result<(), ExperimentError> {
     let [tracing, cones, occlusion, racing] = case.share.split([4.0, 2.0, 1.0, 2.0]);
     let truth = trace(lab, &settings, (tracing, case.options)).await?;
@@ -176,7 +175,7 @@ async fn race(
     lab: &mut Lab,
     settings: Settings,
     (share, options, truth): (Share, &RenderingOptions, Arc<Film>),
-    rows: &RefCell<Vec<RenderingRow>>,
+    rows: &Findings<Vec<RenderingRow>>,
 ) -> Result<(), ExperimentError> {
     let place = rows.borrow().iter().rposition(|row| row.term == SurfaceView::Final);
     let Some((place, cones)) = place.map(|place| (place, rows.borrow()[place].clone())) else { return Ok(()) };

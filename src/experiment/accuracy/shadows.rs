@@ -1,7 +1,6 @@
 //! Shadows in the voxels against rays through the posed triangles, light by light: by shadow maps of
 //! several sizes, by marching the octree, and with none.
 
-use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::posed;
@@ -10,7 +9,7 @@ use crate::accuracy::posed_triangles::PosedTriangles;
 use crate::accuracy::shadows::{LeafPlaces, POINTS, ShadowError, TrueShadows, spread};
 use crate::data::world_voxels::WorldVoxels;
 use crate::engine::PassTiming;
-use crate::experiment::board::Share;
+use crate::experiment::board::{Findings, Share};
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
 use crate::experiment::rows::{Method, ShadowRow};
@@ -62,7 +61,7 @@ pub fn shadows(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>)
 async fn compare(
     lab: &mut Lab,
     settings: &Settings,
-    (share, rows): (Share, &RefCell<Vec<ShadowRow>>),
+    (share, rows): (Share, &Findings<Vec<ShadowRow>>),
 ) -> Result<(), ExperimentError> {
     let [casting, measuring] = share.split([1.0, 3.0]);
     let lights = lights(lab, settings, casting).await?;

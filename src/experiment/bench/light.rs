@@ -1,12 +1,12 @@
 //! What light costs, a variant at a time: pointers, shadows, injection, averages, cones, and samples a
 //! second by every way to find nodes.
 
-use std::cell::{RefCell, RefMut};
+use std::cell::RefMut;
 use std::collections::BTreeMap;
 
 use super::sampling;
 use crate::experiment::ExperimentError;
-use crate::experiment::board::Share;
+use crate::experiment::board::{Findings, Share};
 use crate::experiment::cost::Samples;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, NO_PICTURE};
@@ -74,7 +74,7 @@ fn follow(settings: &mut Settings, lookup: Lookup) {
 
 pub async fn measure(
     lab: &mut Lab,
-    report: &RefCell<KernelReport>,
+    report: &Findings<KernelReport>,
     (share, bytes_per_ms): (Share, f64),
 ) -> Result<(), ExperimentError> {
     let light = || RefMut::map(report.borrow_mut(), |report| report.light.get_or_insert_default());

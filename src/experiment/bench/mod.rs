@@ -10,10 +10,9 @@ mod rebuild;
 mod sampling;
 mod surfaces;
 
-use std::cell::RefCell;
 use std::sync::Arc;
 
-use super::board::Share;
+use super::board::{Findings, Share};
 use super::lab::{Lab, PICTURE_PX};
 use super::rows::KernelReport;
 use super::{Experiment, ExperimentError, Subject};
@@ -63,7 +62,7 @@ pub fn bench(gpu: &Arc<Gpu>, mut subject: Subject, options: BenchOptions) -> Exp
     })
 }
 
-async fn measure(mut lab: Lab, report: &RefCell<KernelReport>, options: BenchOptions) -> Result<(), ExperimentError> {
+async fn measure(mut lab: Lab, report: &Findings<KernelReport>, options: BenchOptions) -> Result<(), ExperimentError> {
     let weight = |is_wanted: bool, weight: f32| if is_wanted { weight } else { 0.0 };
     let has_floors = options.rebuild || options.light;
     // About as they take on the built-in scenes.

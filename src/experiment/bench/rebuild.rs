@@ -1,10 +1,8 @@
 //! Every kernel of a whole rebuild, and of a picture of it.
 
-use std::cell::RefCell;
-
 use crate::engine::PassTiming;
 use crate::experiment::ExperimentError;
-use crate::experiment::board::Share;
+use crate::experiment::board::{Findings, Share};
 use crate::experiment::cost::Samples;
 use crate::experiment::frames::{Forget, Frames};
 use crate::experiment::lab::{Lab, PICTURE_PX};
@@ -24,7 +22,7 @@ struct Rebuilds {
 
 pub async fn measure(
     lab: &mut Lab,
-    report: &RefCell<KernelReport>,
+    report: &Findings<KernelReport>,
     (share, bytes_per_ms): (Share, f64),
 ) -> Result<(), ExperimentError> {
     let mut rebuilds = Rebuilds::default();

@@ -1,10 +1,9 @@
 //! What lit surfaces cost, pass by pass, against number and aperture of cones, resolution and sampling.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use crate::experiment::ExperimentError;
-use crate::experiment::board::Share;
+use crate::experiment::board::{Findings, Share};
 use crate::experiment::frames::{Forget, Frames, Times};
 use crate::experiment::lab::{Lab, PICTURE_PX};
 use crate::experiment::rows::{KernelReport, SurfaceReport, VariantCost};
@@ -38,7 +37,7 @@ const VARIANTS: [(&str, Change); 18] = [
     ("every surface glossy", |s| s.method.cone_tracing.glossy_roughness = 1.0),
 ];
 
-pub async fn measure(lab: &mut Lab, report: &RefCell<KernelReport>, share: Share) -> Result<(), ExperimentError> {
+pub async fn measure(lab: &mut Lab, report: &Findings<KernelReport>, share: Share) -> Result<(), ExperimentError> {
     report.borrow_mut().surfaces = Some(SurfaceReport { size_px: PICTURE_PX, variants: Vec::new() });
     let mut shown = lab.settings.clone();
     (shown.method.look.view, shown.method.look.surface) = (View::Surfaces, SurfaceView::Final);
