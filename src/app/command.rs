@@ -43,7 +43,7 @@ pub enum Command {
     SceneCamera(usize),
     /// Back to the camera that frames everything.
     FrameAll,
-    /// Brings the selected node into view, everything where none is selected.
+    /// Brings the selected node into view, all that the moment shows where none is selected.
     Frame,
     /// A node of the scene tree, or none.
     Select(Option<usize>),

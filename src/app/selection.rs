@@ -3,6 +3,7 @@
 use super::App;
 use super::journal::Severity;
 use super::outline;
+use crate::scene::OrbitCamera;
 
 impl App {
     pub(super) fn select(&mut self, node: Option<usize>) {
@@ -36,16 +37,23 @@ impl App {
     }
 
     /// Brings the selected node into view from the side that the camera looks from now; frames
-    /// everything where none is selected.
+    /// what the moment shows where none is selected.
     pub(super) fn frame_selected(&mut self) {
-        let (Some(ready), Some(node)) = (&self.scene, self.desk.tree.selected) else {
-            self.settings.shot.camera = None;
+        let Some(ready) = &self.scene else { return };
+        let aspect = f64::from(self.view_px[0]) / f64::from(self.view_px[1]);
+        let Some(node) = self.desk.tree.selected else {
+            let bounds = ready.prepared.bounds_shown(&self.settings.shot);
+            self.settings.shot.camera = bounds.map(|bounds| {
+                let mut camera = OrbitCamera::default();
+                camera.frame(Some(bounds), aspect);
+                camera
+            });
             return;
         };
         match ready.prepared.bounds_below(node, &self.settings.shot.motion) {
             Ok(Some(bounds)) => {
                 let mut camera = self.camera(self.view_px);
-                camera.frame(Some(bounds), f64::from(self.view_px[0]) / f64::from(self.view_px[1]));
+                camera.frame(Some(bounds), aspect);
                 self.settings.shot.camera = Some(camera);
             }
             Ok(None) => {

@@ -110,6 +110,16 @@ impl Request {
         }
     }
 
+    /// Something is shown, and none of it is in the grid: a sentence.
+    fn all_outside(&self) -> Option<String> {
+        let (scene, grid) = (&self.shown().asked.scene, self.grid());
+        let is_shown = (0..self.prepared.objects.len()).any(|object| !self.shot.hidden.contains(object));
+        (is_shown && scene.voxels() == 0).then(|| {
+            let (from, to) = (grid.corner(), grid.corner() + DVec3::splat(f64::from(grid.cells()) * grid.span));
+            format!("nothing that is shown is in the grid, which reaches from {from:.3} to {to:.3}: fit it to another thing, or choose a larger span")
+        })
+    }
+
     /// From the eye to the farthest corner of the grid, scene units.
     pub fn depth_range(&self) -> [f64; 2] {
         let grid = self.grid();
@@ -130,7 +140,11 @@ impl Request {
             objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite"));
         let lighting = &self.settings().method.lighting;
         let lost = lights::left_out(&prepared.scene, &self.shot.pose, lighting, &self.shot.shown);
-        objects.chain(lost).chain(misfits(prepared, &method.asked, &method.shadow_maps)).collect()
+        objects
+            .chain(self.all_outside())
+            .chain(lost)
+            .chain(misfits(prepared, &method.asked, &method.shadow_maps))
+            .collect()
     }
 }
 

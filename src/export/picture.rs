@@ -69,7 +69,7 @@ mod tests {
     use super::*;
     use crate::scene::{LightKind, OrbitCamera, SceneIdentity};
     use crate::settings::lighting::{AddedLight, LightEdit, Shadows, SunShines};
-    use crate::settings::{ColorBy, Filter, View};
+    use crate::settings::{ColorBy, Filter, FitTo, View};
 
     fn picture() -> RgbaImage {
         RgbaImage::from_fn(5, 3, |x, y| Rgba([x as u8, y as u8, 7, 255]))
@@ -113,10 +113,12 @@ mod tests {
         let light = LightEdit { intensity: 80.0, ..LightEdit::new(LightKind::POINT) };
         let lamp = AddedLight { position: [0.0, 3.0, 0.0], light, ..AddedLight::new("light 1".to_owned(), light.kind) };
         lighting.added = vec![lamp];
+        expected.shot.fit.to = FitTo::Scene;
         assert_eq!(read("format-1.json"), expected);
         expected.shot.size_px = Some([96, 54]);
         assert_eq!(read("format-1.png"), expected, "a picture tells its size");
         let digest = serde_json::from_str(r#""399fa1309a4732b56ca45a94d3cbcb00""#).unwrap();
+        expected.shot.fit.to = FitTo::Clip;
         expected.shot.scene = Some(SceneIdentity { source: "courtyard".to_owned(), digest: Some(digest) });
         assert_eq!((read("format-2.json"), read("format-2.png")), (expected.clone(), expected));
     }

@@ -1,9 +1,10 @@
 //! Where a part of the scene is: the box a camera frames; and the camera of a picture.
 
 use super::{MotionError, Prepared};
+use crate::scene::bounds::union;
 use crate::scene::camera::camera_from_scene_camera;
-use crate::scene::{Aabb, OrbitCamera, Pose};
-use crate::settings::{MotionSettings, Settings};
+use crate::scene::{Aabb, Object, OrbitCamera, Pose};
+use crate::settings::{MotionSettings, Settings, ShotSettings};
 
 /// Nodes without any surface below them are framed with this share of the scene around them.
 const SURROUNDINGS: f64 = 0.05;
@@ -17,6 +18,15 @@ impl Prepared {
             camera.frame(self.bounds, f64::from(size_px[0]) / f64::from(size_px[1]));
             camera
         })
+    }
+
+    /// The box around all that a moment shows; `None` where that is nothing.
+    pub fn bounds_shown(&self, shot: &ShotSettings) -> Option<Aabb> {
+        let pose = self.pose(&shot.motion).ok()?;
+        let hidden = self.hidden(&shot.visibility, &pose).ok()?;
+        let shown = (0..).zip(&self.objects).filter(|(number, _)| !hidden.contains(*number));
+        let objects: Vec<Object> = shown.map(|(_, object)| object.object.clone()).collect();
+        self.scene.boxes_at(&objects, &pose).into_iter().fold(None, union)
     }
 
     /// The box around all that a node and those below it show in a pose, hidden or not; around the

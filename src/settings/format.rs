@@ -77,6 +77,7 @@ fn format_of(written: Option<Value>) -> Result<u64, String> {
 mod tests {
     use super::*;
     use crate::scene::OrbitCamera;
+    use crate::settings::FitTo;
 
     #[test]
     fn what_is_written_is_read_with_its_number() {
@@ -95,11 +96,14 @@ mod tests {
         let mut expected = Settings::default();
         (expected.method.discretization.grid, expected.method.look.shaded) = (256, false);
         expected.shot.motion.time_secs = 2.0;
+        expected.shot.fit.to = FitTo::Scene;
         expected.shot.camera =
             Some(OrbitCamera { eye: [1.0, 2.0, 3.0].into(), target: [0.0; 3].into(), fov_y_degrees: 50.0 });
         assert_eq!(Settings::from_json(text), Ok(expected.clone()));
         assert_eq!(Settings::from_json(&numbered), Ok(expected));
-        assert_eq!(Settings::from_json("{}"), Ok(Settings::default()));
+        let mut empty = Settings::default();
+        empty.shot.fit.to = FitTo::Scene;
+        assert_eq!(Settings::from_json("{}"), Ok(empty));
     }
 
     #[test]
@@ -116,7 +120,7 @@ mod tests {
             "settings: method.look.view: unknown variant `in`",
         );
         let shot = r#"{"format": 2, "shot": {"look": {}}}"#;
-        begins(shot, "settings: shot.look: unknown field `look`, expected one of `motion`, `visibility`, `camera`");
+        begins(shot, "settings: shot.look: unknown field `look`, expected one of `motion`, `visibility`, `fit`");
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Settings of format 1, which had no shot and no method: its parts lay side by side, and the camera in the look.
 
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
+
+use super::FitTo;
 
 const OF_SHOT: [&str; 2] = ["motion", "visibility"];
 const OF_METHOD: [&str; 4] = ["discretization", "lighting", "cone_tracing", "look"];
@@ -14,6 +16,8 @@ pub(super) fn to_format_2(mut written: Map<String, Value>) -> Result<Map<String,
     };
     let (mut shot, method) = (part(&OF_SHOT), part(&OF_METHOD));
     shot.extend(camera.map(|camera| (CAMERA.to_owned(), camera)));
+    // There was no choice: the grid enclosed everything at all times.
+    shot.insert("fit".to_owned(), json!({ "to": FitTo::Scene }));
     if let Some(unknown) = written.keys().next() {
         let known = [&OF_SHOT[..], &OF_METHOD].concat().join("`, `");
         return Err(format!("unknown field `{unknown}`, expected one of `{known}`"));

@@ -132,7 +132,7 @@ fn standard_output_takes_the_same_bytes_as_a_file() {
     let scene = scenes.bent_box();
     let file = render(&scene, &scenes.path("out.png"), &["--size", "40x30"]);
     let start = [OsStr::new("render"), scene.as_os_str(), OsStr::new("-o"), OsStr::new("-")];
-    let output = crate::octolume(start.into_iter().chain(["--size", "40x30"].map(OsStr::new)));
+    let output = crate::on_small_grid(start.into_iter().chain(["--size", "40x30"].map(OsStr::new)));
     assert!(output.status.success() && output.stdout == file);
 }
 
@@ -141,8 +141,7 @@ fn a_grid_fits_what_it_is_told_to() {
     let scenes = Scenes::new();
     let scene = scenes.bent_box();
     let span = |options: &[&str]| {
-        let start =
-            [OsStr::new("info"), scene.as_os_str(), OsStr::new("--json"), OsStr::new("--grid"), OsStr::new("64")];
+        let start = [OsStr::new("info"), scene.as_os_str(), OsStr::new("--json")];
         let json = succeed(start.into_iter().chain(options.iter().map(OsStr::new)));
         serde_json::from_str::<serde_json::Value>(&json).expect("JSON")["span"].as_f64().expect("a number")
     };

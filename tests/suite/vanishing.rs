@@ -205,3 +205,18 @@ fn a_lamp_of_scale_zero_lights_nothing() {
     let shown = prepared.shown_nodes(&settings.shot.visibility, &prepared.pose(&settings.shot.motion).expect("poses"));
     assert_eq!(shown.expect("known"), [true, false]);
 }
+
+#[test]
+fn a_grid_beside_everything_says_so() {
+    let scene = cube_scene(Trs::default());
+    let mut settings = settings(64, None, 0.0);
+    settings.shot.fit = Fit { to: FitTo::Box { min: DVec3::splat(50.0), max: DVec3::splat(51.0) }, ..Fit::default() };
+    let mut engine = Engine::new(Arc::new(device::open()));
+    engine.set_prepared(Some(Arc::new(prepared(&scene, &settings))));
+    engine.request(&settings, [16, 16]).expect("a request");
+    let told = engine.left_out();
+    assert!(told.len() == 1 && told[0].starts_with("nothing that is shown is in the grid"), "{told:?}");
+    settings.shot.visibility.hide(0);
+    engine.request(&settings, [16, 16]).expect("a request");
+    assert_eq!(engine.left_out(), [""; 0], "nothing is shown");
+}
