@@ -29,21 +29,30 @@ pub struct BuildTimes {
     pub samples: usize,
 }
 
-/// By method, oldest first.
+/// By method.
 #[derive(Debug, Default)]
-pub struct TimesBook(HashMap<Digest, VecDeque<f64>>);
+pub struct TimesBook(HashMap<Digest, Builds>);
+
+/// Oldest first. The first build of a method may have compiled its kernels: it counts while it is alone.
+#[derive(Debug, Default)]
+struct Builds {
+    ms: VecDeque<f64>,
+    has_dropped_first: bool,
+}
 
 impl TimesBook {
     pub fn note(&mut self, method: Digest, ms: f64) {
-        let times = self.0.entry(method).or_default();
-        if times.len() == REMEMBERED {
-            times.pop_front();
+        let builds = self.0.entry(method).or_default();
+        let drops_first = builds.ms.len() == 1 && !builds.has_dropped_first;
+        if drops_first || builds.ms.len() == REMEMBERED {
+            builds.ms.pop_front();
+            builds.has_dropped_first = true;
         }
-        times.push_back(ms);
+        builds.ms.push_back(ms);
     }
 
     pub fn of(&self, method: Digest) -> Option<BuildTimes> {
-        let times: Vec<f64> = self.0.get(&method)?.iter().copied().collect();
+        let times: Vec<f64> = self.0.get(&method)?.ms.iter().copied().collect();
         Some(BuildTimes { spread: Spread::of(&times)?, samples: times.len() })
     }
 }
@@ -57,10 +66,13 @@ mod tests {
         let mut book = TimesBook::default();
         let [a, b] = [1, 2].map(|method: u32| Digest::of(&method));
         (0..200).for_each(|ms| book.note(a, f64::from(ms)));
-        book.note(b, 1.0);
+        book.note(b, 1000.0);
+        assert_eq!(book.of(b).map(|times| times.spread.median_ms), Some(1000.0), "better than nothing");
+        [3.0, 5.0].map(|ms| book.note(b, ms));
         let times = book.of(a).expect("some");
         assert_eq!((times.samples, times.spread.median_ms), (64, 167.5));
-        assert_eq!(book.of(b).map(|times| times.samples), Some(1));
+        let of_b = book.of(b).map(|times| (times.samples, times.spread.median_ms));
+        assert_eq!(of_b, Some((2, 4.0)), "without the one that compiled");
         assert_eq!(book.of(Digest::default()), None);
     }
 }
