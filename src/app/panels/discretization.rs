@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use egui::{ComboBox, DragValue, Slider, Ui};
 
-use super::{choice, control, list};
+use super::{choice, control};
 use crate::app::command::Command;
 use crate::settings::{Discretization, FitTo, ShotSettings, Visibility, VoxelAnchor, VoxelizationMode};
 
@@ -60,38 +60,51 @@ pub fn ui(ui: &mut Ui, panel: DiscretizationPanel<'_>) -> Vec<Command> {
 fn fit_ui(ui: &mut Ui, panel: DiscretizationPanel<'_>) -> Vec<Command> {
     let current = &panel.shot.fit;
     let mut wanted = current.clone();
+    let tip = "What the grid encloses, and which nodes count. Hiding nodes moves no grid by itself. Voxelizes again.";
+    control(ui, "Fit", tip, |ui| {
+        ui.horizontal(|ui| {
+            to_ui(ui, &mut wanted.to);
+            counted_ui(ui, &mut wanted.counted, panel);
+        })
+        .response
+    });
+    if wanted == *current { Vec::new() } else { vec![Command::Fit(wanted)] }
+}
+
+fn to_ui(ui: &mut Ui, to: &mut FitTo) {
+    let current = *to;
     let mut kinds = vec![
         (FitTo::Clip, "Clip", "What counts, over the clip that is played; small things far from the rest do not."),
         (FitTo::Pose, "Pose", "What counts, at this moment: the finest cells, and another grid at every moment."),
         (FitTo::Scene, "Scene", "Everything, at rest and over all clips: one grid for all, with the coarsest cells."),
     ];
-    if matches!(current.to, FitTo::Box { .. }) {
-        kinds.push((current.to, "Box", "A box by its corners, as the command line or the settings say."));
+    if matches!(current, FitTo::Box { .. }) {
+        kinds.push((current, "Box", "A box by its corners, as the command line or the settings say."));
     }
-    list(ui, "Fit", "What the grid encloses. Voxelizes again.", &mut wanted.to, &kinds);
-    let alone = panel.selected.map(|node| Visibility { only: BTreeSet::from([node]), ..Visibility::default() });
-    let tip = "Which nodes the grid is fit to. Hiding nodes moves no grid by itself. Voxelizes again.";
-    let counts = if current.counted.shows_all() {
-        "all".to_owned()
-    } else if !current.counted.only.is_empty() {
-        format!("{} alone", current.counted.only.len())
-    } else {
-        format!("all but {}", current.counted.hidden.len())
-    };
-    control(ui, "Counts", tip, |ui| {
-        ComboBox::from_id_salt("counted")
-            .width(110.0)
-            .selected_text(counts)
-            .show_ui(ui, |ui| {
-                ui.selectable_value(&mut wanted.counted, Visibility::default(), "All nodes");
-                ui.selectable_value(&mut wanted.counted, panel.shot.visibility.clone(), "What is shown");
-                if let Some(alone) = alone {
-                    ui.selectable_value(&mut wanted.counted, alone, "The selected node");
-                }
-            })
-            .response
+    let shown = kinds.iter().find(|kind| kind.0 == current).map_or("", |kind| kind.1);
+    ComboBox::from_id_salt("fit").width(60.0).selected_text(shown).show_ui(ui, |ui| {
+        for (kind, name, tip) in kinds {
+            ui.selectable_value(to, kind, name).on_hover_text(tip);
+        }
     });
-    if wanted == *current { Vec::new() } else { vec![Command::Fit(wanted)] }
+}
+
+fn counted_ui(ui: &mut Ui, counted: &mut Visibility, panel: DiscretizationPanel<'_>) {
+    let shown = if counted.shows_all() {
+        "all nodes".to_owned()
+    } else if !counted.only.is_empty() {
+        format!("{} alone", counted.only.len())
+    } else {
+        format!("all but {}", counted.hidden.len())
+    };
+    ComboBox::from_id_salt("counted").width(80.0).selected_text(shown).show_ui(ui, |ui| {
+        ui.selectable_value(counted, Visibility::default(), "all nodes");
+        ui.selectable_value(counted, panel.shot.visibility.clone(), "what is shown");
+        if let Some(node) = panel.selected {
+            let alone = Visibility { only: BTreeSet::from([node]), ..Visibility::default() };
+            ui.selectable_value(counted, alone, "the selected node");
+        }
+    });
 }
 
 fn span_ui(ui: &mut Ui, wanted: &mut Discretization, span: Option<f64>) {
