@@ -29,8 +29,7 @@ fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
 
 @fragment
 fn fragment(v: Vertex) -> @location(0) vec4<f32> {
-    let surface = base_color_at(vec4<f32>(1.0, 1.0, 1.0, v.alpha), v.tex_coord);
-    if !is_there(surface.presence, vec2<u32>(v.clip.xy)) {
+    if !is_there(presence_at(v.alpha, v.tex_coord), vec2<u32>(v.clip.xy)) {
         discard;
     }
     return vec4<f32>(v.distance, 0.0, 0.0, 1.0);

@@ -41,6 +41,16 @@ fn base_color_at(vertex_color: vec4<f32>, uv: vec2<f32>) -> BaseColor {
     }
 }
 
+// The same of its presence alone: what is opaque reads no texture.
+fn presence_at(vertex_alpha: f32, uv: vec2<f32>) -> f32 {
+    let factor = draw.base_color.a * vertex_alpha;
+    switch draw.alpha_mode {
+        case ALPHA_MASK: { return mask_presence(factor, uv); }
+        case ALPHA_BLEND: { return factor * textureSample(base_color, base_color_sampler, uv).a; }
+        default: { return 1.0; }
+    }
+}
+
 // 0 … 1 in an order that spreads: a share of pixels stands for a share of coverage, transparency without an order.
 fn threshold(pixel: vec2<u32>) -> f32 {
     let x = pixel.x ^ pixel.y;
