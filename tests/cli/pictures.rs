@@ -86,10 +86,12 @@ fn a_picture_draws_itself_again() {
 /// Written by the program of that format. Another driver may round a colour, or a voxel's border, the other way.
 #[test]
 fn a_picture_of_every_format_so_far_is_drawn_again() {
-    const FORMATS: [&str; 2] = ["format-1", "format-2"];
+    // Pixels that may differ, of a hundred. Still instances have had voxels of their own since format 1: they no longer
+    // lie up to half a cell beside their columns.
+    const FORMATS: [(&str, usize); 2] = [("format-1", 2), ("format-2", 1)];
     let scenes = Scenes::new();
     let saved = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/saved");
-    for format in FORMATS {
+    for (format, percent) in FORMATS {
         let before = saved.join(format).with_extension("png");
         let from = |file: &Path, size: &[&str]| {
             let settings = ["--settings", file.to_str().expect("UTF-8")];
@@ -107,7 +109,7 @@ fn a_picture_of_every_format_so_far_is_drawn_again() {
             |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 2);
         let off = again.pixels().zip(before.pixels()).filter(is_off).count();
         println!("{format}: {off} of {} pixels are off by more than 2 of 255", 96 * 54);
-        assert!(off <= 96 * 54 / 100, "{format}: {off} pixels");
+        assert!(off <= 96 * 54 * percent / 100, "{format}: {off} pixels");
     }
 }
 
