@@ -1,5 +1,5 @@
-//! Lattices (section 4.2, Eq. 1). A cache's origin is an integer multiple of δ in its own space. Static objects used
-//! once lie on the grid's own lattice and reproduce exactly.
+//! Lattices (section 4.2, Eq. 1). A cache's origin is an integer multiple of δ in its own space. Static objects lie
+//! on the grid's own lattice and reproduce exactly.
 
 use glam::{DMat3, DMat4, DVec3, Vec3};
 

@@ -171,8 +171,7 @@ impl<'a> Shader<'a> {
         let (index, local) = self.soup.locate(number);
         let part = &self.input.parts[index];
         let triangle = Triangle::new(&part.positions_cells, part.primitive.triangles[local])?;
-        let surface =
-            SurfaceReader { primitive: part.primitive, material: self.materials[index], textures: self.input.textures };
+        let surface = SurfaceReader::new(part.primitive, self.materials[index], self.input.textures);
         Some(Current { number, vertices: triangle.vertices, clipper: Clipper::new(&triangle), part, surface })
     }
 

@@ -19,44 +19,35 @@ pub(super) struct Surface {
 
 /// Reads one primitive's material.
 pub(super) struct SurfaceReader<'a> {
-    pub primitive: &'a Primitive,
-    pub material: &'a Material,
-    pub textures: &'a TexturePyramids,
+    primitive: &'a Primitive,
+    material: &'a Material,
+    textures: &'a TexturePyramids,
+    /// How its base colour texture is read.
+    base_color: Texels,
 }
 
-impl SurfaceReader<'_> {
+/// A part of a triangle: where its middle is, by a weight a corner, and its share of the triangle's area.
+#[derive(Clone, Copy)]
+struct Piece {
+    vertices: [u32; 3],
+    place: DVec3,
+    share: f64,
+}
+
+impl<'a> SurfaceReader<'a> {
+    pub fn new(primitive: &'a Primitive, material: &'a Material, textures: &'a TexturePyramids) -> Self {
+        Self { primitive, material, textures, base_color: Texels::of_base_color(material) }
+    }
+
     /// `place` weighs the corners; the piece is `share` of the triangle's area.
     pub fn read(&self, vertices: [u32; 3], place: DVec3, share: f64) -> Surface {
-        let sample = |slot: Option<TextureRef>, texels| match slot {
-            Some(slot) => self.sample(slot, texels, vertices, place, share),
-            None => [1.0; 4],
-        };
+        let piece = Piece { vertices, place, share };
         let material = self.material;
-        let vertex = self.vertex_color(vertices, place);
-        let factor: [f64; 4] = std::array::from_fn(|c| f64::from(material.base_color[c]) * vertex[c]);
-        let texels = Texels::of_base_color(material);
-        let texture = match (material.alpha_mode, texels) {
-            (AlphaMode::Mask { cutoff }, Texels::Cut { least }) => {
-                let is_there = |alpha: f64| (factor[3] * alpha) as f32 >= cutoff;
-                let rgba = material.base_color_texture.map_or([1.0; 4], |slot| {
-                    let footprint = self.footprint(slot, vertices, place, share);
-                    self.textures.sample_cut(slot.texture, least, footprint, is_there)
-                });
-                // Shares are those without colours of vertices; what these cut out altogether is not there.
-                [rgba[0], rgba[1], rgba[2], if is_there(1.0) { rgba[3] } else { 0.0 }]
-            }
-            _ => sample(material.base_color_texture, texels),
-        };
-        let base: [f64; 3] = std::array::from_fn(|c| (factor[c] * texture[c]).clamp(0.0, 1.0));
-        let opacity = match material.alpha_mode {
-            AlphaMode::Opaque => 1.0,
-            AlphaMode::Mask { .. } => texture[3],
-            AlphaMode::Blend => (factor[3] * texture[3]).clamp(0.0, 1.0),
-        };
-        let [_, rough, metal, _] = sample(material.metallic_roughness_texture, Texels::Linear);
-        let glow = sample(material.emissive_texture, Texels::Opaque);
+        let [red, green, blue, opacity] = self.base_color(piece);
+        let [_, rough, metal, _] = self.sample(material.metallic_roughness_texture, Texels::Linear, piece);
+        let glow = self.sample(material.emissive_texture, Texels::Opaque, piece);
         Surface {
-            color: base,
+            color: [red, green, blue],
             opacity,
             metallic: (f64::from(material.metallic) * metal).clamp(0.0, 1.0),
             roughness: (f64::from(material.roughness) * rough).clamp(0.0, 1.0),
@@ -64,13 +55,39 @@ impl SurfaceReader<'_> {
         }
     }
 
-    fn sample(&self, slot: TextureRef, texels: Texels, vertices: [u32; 3], place: DVec3, share: f64) -> [f64; 4] {
-        let (uv, uv_area) = self.footprint(slot, vertices, place, share);
-        self.textures.sample(slot.texture, texels, uv, uv_area)
+    /// Colour, and which share of the piece is there.
+    fn base_color(&self, piece: Piece) -> [f64; 4] {
+        let (slot, vertex) = (self.material.base_color_texture, self.vertex_color(piece));
+        let factor: [f64; 4] = std::array::from_fn(|c| f64::from(self.material.base_color[c]) * vertex[c]);
+        let (texture, opacity) = match (self.material.alpha_mode, self.base_color) {
+            (AlphaMode::Mask { cutoff }, Texels::Cut { least }) => {
+                let is_there = |alpha: f64| (factor[3] * alpha) as f32 >= cutoff;
+                let texture = slot.map_or([1.0; 4], |slot| {
+                    self.textures.sample_cut(slot.texture, least, self.footprint(slot, piece), is_there)
+                });
+                // Shares are those without colours of vertices; what these cut out altogether is not there.
+                (texture, if is_there(1.0) { texture[3] } else { 0.0 })
+            }
+            (AlphaMode::Blend, texels) => {
+                let texture = self.sample(slot, texels, piece);
+                (texture, factor[3] * texture[3])
+            }
+            (_, texels) => (self.sample(slot, texels, piece), 1.0),
+        };
+        [factor[0] * texture[0], factor[1] * texture[1], factor[2] * texture[2], opacity]
+            .map(|value| value.clamp(0.0, 1.0))
+    }
+
+    /// White where the slot is empty.
+    fn sample(&self, slot: Option<TextureRef>, texels: Texels, piece: Piece) -> [f64; 4] {
+        slot.map_or([1.0; 4], |slot| {
+            let (uv, uv_area) = self.footprint(slot, piece);
+            self.textures.sample(slot.texture, texels, uv, uv_area)
+        })
     }
 
     /// Texture coordinates of the piece, and what it covers of the unit square.
-    fn footprint(&self, slot: TextureRef, vertices: [u32; 3], place: DVec3, share: f64) -> (DVec2, f64) {
+    fn footprint(&self, slot: TextureRef, Piece { vertices, place, share }: Piece) -> (DVec2, f64) {
         let coordinates = self.primitive.tex_coords.get(slot.tex_coord).map_or(&[][..], Vec::as_slice);
         let corner = |vertex: u32| {
             let tex_coord: Vec2 = coordinates.get(vertex as usize).copied().unwrap_or_default();
@@ -81,7 +98,7 @@ impl SurfaceReader<'_> {
         (uv, 0.5 * (b - a).perp_dot(c - a).abs() * share)
     }
 
-    fn vertex_color(&self, vertices: [u32; 3], place: DVec3) -> [f64; 4] {
+    fn vertex_color(&self, Piece { vertices, place, .. }: Piece) -> [f64; 4] {
         let colors = &self.primitive.colors;
         if colors.is_empty() {
             return [1.0; 4];
