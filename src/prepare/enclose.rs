@@ -41,26 +41,15 @@ pub fn enclosed(
         );
         Warning::new(sentence).at(object.node)
     });
-    let bounds = boxes.iter().fold(None, |all, (_, bounds)| union(all, Some(*bounds)));
-    Ok((bounds, warnings.collect()))
+    Ok((around(&boxes), warnings.collect()))
 }
 
 /// Takes out what is small and far from the rest; returns how many times the size of the rest it makes of the whole.
 fn take_apart(boxes: &mut Vec<(usize, Aabb)>) -> Vec<(usize, f64)> {
-    let extent = |bounds: &Aabb| bounds.size().max_element();
-    let mut apart = Vec::new();
-    let mut rest = boxes.clone();
-    while rest.len() > 1 && apart.len() <= MOST_APART {
-        let without = unions_without(&rest);
-        let whole = without[0].union(&rest[0].1);
-        let lies_apart = |place: &usize| {
-            let left = extent(&without[*place]);
-            extent(&whole) >= APART * left && SMALLER * extent(&rest[*place].1) <= left
-        };
-        let smallest = |a: &usize, b: &usize| extent(&rest[*a].1).total_cmp(&extent(&rest[*b].1));
-        let Some(place) = (0..rest.len()).filter(lies_apart).min_by(smallest) else { break };
-        apart.push((rest[place].0, extent(&whole) / extent(&without[place])));
-        rest.remove(place);
+    let (mut rest, mut apart) = (boxes.clone(), Vec::new());
+    while let Some((smaller, taken, times)) = without_strays(&rest) {
+        apart.extend(taken.into_iter().map(|object| (object, times)));
+        rest = smaller;
     }
     if apart.len() > MOST_APART {
         return Vec::new();
@@ -69,15 +58,39 @@ fn take_apart(boxes: &mut Vec<(usize, Aabb)>) -> Vec<(usize, f64)> {
     apart
 }
 
+/// The fewest boxes whose absence leaves so much less, each far smaller than what is left: several, as two on opposite
+/// sides hide each other. What is left, their objects, and how many times its size the whole is.
+fn without_strays(boxes: &[(usize, Aabb)]) -> Option<(Vec<(usize, Aabb)>, Vec<usize>, f64)> {
+    let extent = |bounds: &Aabb| bounds.size().max_element();
+    let whole = extent(&around(boxes)?);
+    let (mut rest, mut taken) = (boxes.to_vec(), Vec::<(usize, Aabb)>::new());
+    while rest.len() > 1 && taken.len() <= MOST_APART {
+        let left: Vec<f64> = unions_without(&rest).iter().map(extent).collect();
+        let is_small = |place: &usize| SMALLER * extent(&rest[*place].1) <= left[*place];
+        let least = |a: &usize, b: &usize| left[*a].total_cmp(&left[*b]);
+        let place = (0..rest.len()).filter(is_small).min_by(least)?;
+        taken.push(rest.remove(place));
+        let all_are_small = taken.iter().all(|(_, bounds)| SMALLER * extent(bounds) <= left[place]);
+        if all_are_small && whole >= APART * left[place] {
+            return Some((rest, taken.into_iter().map(|(object, _)| object).collect(), whole / left[place]));
+        }
+    }
+    None
+}
+
+fn around(boxes: &[(usize, Aabb)]) -> Option<Aabb> {
+    boxes.iter().fold(None, |all, (_, bounds)| union(all, Some(*bounds)))
+}
+
 /// Of each box: the box around all others. There are at least two.
 fn unions_without(boxes: &[(usize, Aabb)]) -> Vec<Aabb> {
-    let around = |all: &mut Option<Aabb>, bounds: &Aabb| {
+    let so_far = |all: &mut Option<Aabb>, bounds: &Aabb| {
         let before = *all;
         *all = union(*all, Some(*bounds));
         Some(before)
     };
-    let before: Vec<Option<Aabb>> = boxes.iter().map(|(_, b)| b).scan(None, around).collect();
-    let mut after: Vec<Option<Aabb>> = boxes.iter().rev().map(|(_, b)| b).scan(None, around).collect();
+    let before: Vec<Option<Aabb>> = boxes.iter().map(|(_, b)| b).scan(None, so_far).collect();
+    let mut after: Vec<Option<Aabb>> = boxes.iter().rev().map(|(_, b)| b).scan(None, so_far).collect();
     after.reverse();
     before.into_iter().zip(after).filter_map(|(before, after)| union(before, after)).collect()
 }
@@ -101,6 +114,7 @@ mod tests {
     fn small_things_far_away_lie_apart_and_nothing_else_does() {
         assert_eq!(apart(&[at(0.0, 1.0), at(1000.0, 0.01)]), [1]);
         assert_eq!(apart(&[at(-500.0, 0.1), at(0.0, 1.0), at(1000.0, 0.01)]), [2, 0]);
+        assert_eq!(apart(&[at(1e4, 100.0), at(0.0, 1.0), at(-5e3, 0.01)]), [0; 0], "no stray is larger than the rest");
         assert_eq!(apart(&[at(0.0, 1.0), at(1000.0, 1.0)]), [0; 0], "two of a kind");
         assert_eq!(apart(&[at(0.0, 1.0), at(5.0, 0.01)]), [0; 0], "near enough");
         assert_eq!(apart(&[at(0.0, 1.0), at(-500.0, 1000.0)]), [0; 0], "a sky around it");

@@ -57,8 +57,11 @@ fn completed(w: DMat3) -> Option<(DMat3, DVec3)> {
     let size = frobenius(&w);
     let across = |m: DMat3| {
         let normals = [m.x_axis.cross(m.y_axis), m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis)];
-        let longest = normals.into_iter().fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a });
-        (longest.length() > SINGULAR_SHARE * size * size).then(|| longest.normalize())
+        let normal = longest(normals);
+        // Where the columns are nearly parallel, their products know it less well than the longest column does.
+        let column = longest([m.x_axis, m.y_axis, m.z_axis]);
+        let (area, normal) = (normal.length(), normal.normalize_or_zero());
+        (area > SINGULAR_SHARE * size * size).then(|| normal.reject_from(column).normalize())
     };
     let (from, to) = (across(w.transpose())?, across(w)?);
     (size.is_finite()).then(|| (w + outer(to, from) * size, from))
@@ -73,6 +76,10 @@ pub fn unflattened(w: DMat3) -> DMat3 {
         }
         _ => w,
     }
+}
+
+fn longest(vectors: [DVec3; 3]) -> DVec3 {
+    vectors.into_iter().fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a })
 }
 
 /// a · bᵀ.
@@ -108,9 +115,15 @@ mod tests {
             let off = |a: DMat3, b: DMat3| frobenius(&(a - b)) / frobenius(&stretch);
             assert!(off(polar.stretch, stretch) < 1e-12, "{} is not {stretch}", polar.stretch);
             assert!(off(polar.rotation * polar.stretch, w) < 1e-12);
-            // Behind its completed stretch the completed matrix turns alone.
-            let turned = unflattened(w) * unflattened(polar.stretch).inverse();
-            assert!(frobenius(&(turned.transpose() * turned - DMat3::IDENTITY)) < 1e-9, "{turned}");
+            // So does the matrix with that length put back …
+            let thick = unflattened(polar.stretch);
+            assert!(off(polar.rotation * thick, unflattened(w)) < 1e-12);
+            // … and behind its stretch it turns alone. An inverse by cofactors loses the condition twice.
+            let turned = unflattened(w) * thick.inverse();
+            let lengths = DVec3::select(scale.cmpeq(DVec3::ZERO), DVec3::ONE, scale);
+            let condition = lengths.max_element() / lengths.min_element();
+            let bound = 16.0 * f64::EPSILON * condition * condition;
+            assert!(frobenius(&(turned.transpose() * turned - DMat3::IDENTITY)) < bound, "{turned}");
         }
         assert_eq!(right_polar_or_flat(DMat3::from_diagonal(DVec3::X)), None);
         let regular = DMat3::from_diagonal(DVec3::new(1.0, 2.0, 3.0));

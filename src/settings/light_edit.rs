@@ -213,7 +213,7 @@ mod tests {
             spot.check("light 7").expect_err("out of range")
         };
         assert!(error(LightPart::OuterDegrees(91.0)).contains("from 0° to 91°"));
-        assert!(error(LightPart::InnerDegrees(45.0)).contains("grow from 0° to at most 90°"));
+        assert!(error(LightPart::InnerDegrees(46.0)).contains("grow from 0° to at most 90°"));
         assert!(error(LightPart::Range(Some(0.0))).contains("the range of light 7 is 0"));
         assert!(error(LightPart::Range(Some(1e300))).contains("a finite number above 0"));
         assert!(error(LightPart::Candela(f64::NAN)).contains("light 7 must be finite and not negative"));
