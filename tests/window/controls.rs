@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use octolume::settings::{NodeNames, Settings};
+use octolume::settings::{FitTo, NodeNames, Settings};
 
 use crate::rig::{Window, assert_changed, difference, wgpu_setup};
 
@@ -91,4 +91,18 @@ fn what_does_not_fit_a_smaller_grid_is_told() {
     assert_eq!([window.log_count(level), window.log_count(dense)], [0, 0]);
     window.choose("Grid", "64³ cells");
     assert_eq!([window.log_count(level), window.log_count(dense)], [1, 1]);
+}
+
+#[test]
+fn the_grid_is_fit_to_the_pose_and_to_a_selected_node() {
+    let mut window = Window::open("courtyard");
+    window.choose("Fit to", "Pose");
+    assert_eq!(window.app().settings().shot.fit.to, FitTo::Pose);
+    window.open_tree();
+    window.type_into("Find", "TRAVELLER");
+    window.select("traveller head");
+    let before = window.view();
+    window.choose("Nodes that count", "the selected node");
+    assert_eq!(window.app().settings().shot.fit.counted.only.len(), 1);
+    assert_changed(&before, &window.view(), "the grid of one node");
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use egui::{ComboBox, DragValue, Slider, Ui};
+use egui::{ComboBox, DragValue, Role, Slider, Ui, WidgetInfo};
 
 use super::{choice, control};
 use crate::app::command::Command;
@@ -82,11 +82,12 @@ fn to_ui(ui: &mut Ui, to: &mut FitTo) {
         kinds.push((current, "Box", "A box by its corners, as the command line or the settings say."));
     }
     let shown = kinds.iter().find(|kind| kind.0 == current).map_or("", |kind| kind.1);
-    ComboBox::from_id_salt("fit").width(60.0).selected_text(shown).show_ui(ui, |ui| {
+    let combo = ComboBox::from_id_salt("fit").width(60.0).selected_text(shown).show_ui(ui, |ui| {
         for (kind, name, tip) in kinds {
             ui.selectable_value(to, kind, name).on_hover_text(tip);
         }
     });
+    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fit to"));
 }
 
 fn counted_ui(ui: &mut Ui, counted: &mut Visibility, panel: DiscretizationPanel<'_>) {
@@ -97,7 +98,7 @@ fn counted_ui(ui: &mut Ui, counted: &mut Visibility, panel: DiscretizationPanel<
     } else {
         format!("all but {}", counted.hidden.len())
     };
-    ComboBox::from_id_salt("counted").width(80.0).selected_text(shown).show_ui(ui, |ui| {
+    let combo = ComboBox::from_id_salt("counted").width(80.0).selected_text(shown).show_ui(ui, |ui| {
         ui.selectable_value(counted, Visibility::default(), "all nodes");
         ui.selectable_value(counted, panel.shot.visibility.clone(), "what is shown");
         if let Some(node) = panel.selected {
@@ -105,6 +106,7 @@ fn counted_ui(ui: &mut Ui, counted: &mut Visibility, panel: DiscretizationPanel<
             ui.selectable_value(counted, alone, "the selected node");
         }
     });
+    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Nodes that count"));
 }
 
 fn span_ui(ui: &mut Ui, wanted: &mut Discretization, span: Option<f64>) {
