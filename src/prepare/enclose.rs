@@ -47,9 +47,8 @@ pub fn enclosed(
 /// Takes out what is small and far from the rest; returns how many times the size of the rest it makes of the whole.
 fn take_apart(boxes: &mut Vec<(usize, Aabb)>) -> Vec<(usize, f64)> {
     let (mut rest, mut apart) = (boxes.clone(), Vec::new());
-    while let Some((smaller, taken, times)) = without_strays(&rest) {
-        apart.extend(taken.into_iter().map(|object| (object, times)));
-        rest = smaller;
+    while let Some(taken) = take_strays(&mut rest) {
+        apart.extend(taken);
     }
     if apart.len() > MOST_APART {
         return Vec::new();
@@ -58,21 +57,22 @@ fn take_apart(boxes: &mut Vec<(usize, Aabb)>) -> Vec<(usize, f64)> {
     apart
 }
 
-/// The fewest boxes whose absence leaves so much less, each far smaller than what is left: several, as two on opposite
-/// sides hide each other. What is left, their objects, and how many times its size the whole is.
-fn without_strays(boxes: &[(usize, Aabb)]) -> Option<(Vec<(usize, Aabb)>, Vec<usize>, f64)> {
+/// Takes out the fewest boxes whose absence leaves so much less, each far smaller than what is left: several, as two
+/// on opposite sides hide each other. `None` where there are none such.
+fn take_strays(boxes: &mut Vec<(usize, Aabb)>) -> Option<Vec<(usize, f64)>> {
     let extent = |bounds: &Aabb| bounds.size().max_element();
     let whole = extent(&around(boxes)?);
-    let (mut rest, mut taken) = (boxes.to_vec(), Vec::<(usize, Aabb)>::new());
+    let (mut rest, mut taken) = (boxes.clone(), Vec::<(usize, Aabb)>::new());
     while rest.len() > 1 && taken.len() <= MOST_APART {
         let left: Vec<f64> = unions_without(&rest).iter().map(extent).collect();
-        let is_small = |place: &usize| SMALLER * extent(&rest[*place].1) <= left[*place];
+        let is_small = |place: &usize| left[*place] > 0.0 && SMALLER * extent(&rest[*place].1) <= left[*place];
         let least = |a: &usize, b: &usize| left[*a].total_cmp(&left[*b]);
         let place = (0..rest.len()).filter(is_small).min_by(least)?;
         taken.push(rest.remove(place));
         let all_are_small = taken.iter().all(|(_, bounds)| SMALLER * extent(bounds) <= left[place]);
         if all_are_small && whole >= APART * left[place] {
-            return Some((rest, taken.into_iter().map(|(object, _)| object).collect(), whole / left[place]));
+            *boxes = rest;
+            return Some(taken.into_iter().map(|(object, _)| (object, whole / left[place])).collect());
         }
     }
     None
@@ -119,6 +119,7 @@ mod tests {
         assert_eq!(apart(&[at(0.0, 1.0), at(5.0, 0.01)]), [0; 0], "near enough");
         assert_eq!(apart(&[at(0.0, 1.0), at(-500.0, 1000.0)]), [0; 0], "a sky around it");
         assert_eq!(apart(&[at(0.0, 1.0)]), [0; 0]);
+        assert_eq!(apart(&[at(0.0, 0.0), at(0.0, 0.0), at(9.0, 0.0)]), [0; 0], "points have no size");
         let dust: Vec<Aabb> = (0..20).map(|grain| at(1000.0 * f64::from(grain * grain * grain), 0.01)).collect();
         assert_eq!(apart(&[&[at(0.0, 1.0)], &dust[1..]].concat()), [0; 0], "a scene of small things");
     }
