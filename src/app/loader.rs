@@ -72,9 +72,10 @@ impl Loader {
         self.job = Some(Job { title, preparation, opens: true, work });
     }
 
-    /// Voxelizes an open scene for another grid, span, mode or clip.
+    /// Voxelizes an open scene for another grid, span, mode, clip or fit. What is under way for another moment of the
+    /// same is finished first: while a clip plays, nothing begun anew every frame would ever be shown.
     pub fn discretize(&mut self, ctx: &egui::Context, open: &Arc<Prepared>, preparation: Preparation) {
-        if self.job.as_ref().is_some_and(|job| job.preparation.same_voxels(&preparation)) {
+        if self.job.as_ref().is_some_and(|job| job.preparation.same_but_for_its_moment(&preparation)) {
             return;
         }
         let open = Arc::clone(open);

@@ -48,6 +48,11 @@ impl App {
     fn keep_open_scene(&mut self) {
         if let Some(ready) = &self.scene {
             ready.preparation.keep_in(&mut self.settings);
+            // Another clip, or another moment of a grid that fits the pose.
+            if !ready.preparation.same_voxels(&Preparation::from(&self.settings)) {
+                self.settings.shot.motion.clone_from(&ready.preparation.motion);
+                self.playback.pause();
+            }
         }
     }
 

@@ -13,12 +13,17 @@ pub struct Preparation {
 impl Preparation {
     /// Whether both need the same grid and the same voxels.
     pub fn same_voxels(&self, other: &Self) -> bool {
-        let voxels = |this: &Self| {
+        let moment = |this: &Self| (this.fit.to == FitTo::Pose).then_some(this.motion.time_secs);
+        self.same_but_for_its_moment(other) && moment(self) == moment(other)
+    }
+
+    /// Whether a grid that fits a pose is all that can differ, because another pose is shown.
+    pub fn same_but_for_its_moment(&self, other: &Self) -> bool {
+        let chosen = |this: &Self| {
             let Discretization { grid, span, mode, .. } = this.discretization;
-            let moment = (this.fit.to == FitTo::Pose).then_some(this.motion.time_secs);
-            (grid, span, mode, this.motion.clip.clone(), moment)
+            (grid, span, mode, this.motion.clip.clone(), this.fit.clone())
         };
-        voxels(self) == voxels(other) && self.fit == other.fit
+        chosen(self) == chosen(other)
     }
 
     /// Puts what voxels were made for into settings that wish for others.
