@@ -149,3 +149,32 @@ fn voxelize(
         Err(error) => Err(Failure::Cause(error.to_string())),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prepare::prepare;
+    use crate::settings::FitTo;
+
+    #[test]
+    fn a_grid_of_one_moment_is_finished_while_others_are_asked_for() {
+        let moment = |time_secs: f64| {
+            let mut preparation = Preparation::default();
+            (preparation.fit.to, preparation.motion.time_secs) = (FitTo::Pose, time_secs);
+            preparation
+        };
+        let prepared = prepare(Arc::new(Scene::default()), moment(0.0), None, &Progress::default());
+        let prepared = Arc::new(prepared.expect("nothing to voxelize"));
+        let mut loader = Loader::new(OpenOptions::default(), None);
+        let mut begun = |preparation: &Preparation| {
+            loader.discretize(&egui::Context::default(), &prepared, preparation.clone());
+            loader.job.as_ref().map(|job| job.preparation.clone())
+        };
+        let first = moment(1.0);
+        assert_eq!(begun(&first).as_ref(), Some(&first));
+        assert_eq!(begun(&moment(2.0)).as_ref(), Some(&first), "a clip plays");
+        let mut coarser = moment(3.0);
+        coarser.discretization.grid = 64;
+        assert_eq!(begun(&coarser).as_ref(), Some(&coarser), "another grid does not wait");
+    }
+}

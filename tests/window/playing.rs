@@ -12,7 +12,7 @@ use octolume::prepare::{Prepared, prepare};
 use octolume::progress::Progress;
 use octolume::scene::builtin;
 use octolume::scene::load;
-use octolume::settings::{ColorBy, FitTo, NodeNames, Settings, View};
+use octolume::settings::{ColorBy, NodeNames, Settings, View};
 
 use crate::rig::{Window, small_grid, wgpu_setup};
 
@@ -73,20 +73,6 @@ fn a_picture_of_a_playing_clip_costs_one_window_frame() {
         // An outgrown octree is built again, which takes a frame more.
         assert!(finished + 1 >= FRAMES, "{name}: {finished} pictures in {FRAMES} frames of the window");
         assert_ne!(window.app().engine().moment_on_screen(), moment.as_ref(), "{name}");
-    }
-}
-
-#[test]
-fn a_grid_that_fits_the_pose_follows_a_playing_clip() {
-    let mut window = playing(settings(|s| s.shot.fit.to = FitTo::Pose));
-    let until = Instant::now() + PATIENCE;
-    let mut grids: Vec<Arc<Prepared>> = Vec::new();
-    // Frames follow each other faster than voxels are made.
-    while grids.len() < 4 {
-        assert!(Instant::now() < until, "{} grids while the clip plays", grids.len());
-        window.0.step();
-        let prepared = window.app().engine().prepared();
-        grids.extend(prepared.filter(|prepared| grids.last().is_none_or(|last| !Arc::ptr_eq(last, prepared))).cloned());
     }
 }
 
