@@ -54,14 +54,14 @@ const MOST_STILL_TRIANGLES: usize = 1 << 22;
 pub fn visible_objects(scene: &Scene, grid: &Grid, motion: MotionReport) -> (Vec<PreparedObject>, Vec<Warning>) {
     let MotionReport { objects, hidden, stretching: _ } = motion;
     let rest = scene.pose(None, 0.0);
-    let mut uses: HashMap<usize, usize> = HashMap::new();
+    // The nodes of its still objects, by mesh.
+    let mut shared: HashMap<usize, Vec<usize>> = HashMap::new();
     for object in objects.iter().filter(|object| object.motion == Motion::Static) {
-        *uses.entry(object.mesh).or_default() += 1;
+        shared.entry(object.mesh).or_default().push(object.node);
     }
     let too_many = |mesh: usize, count: usize| count * scene.meshes[mesh].triangle_count() > MOST_STILL_TRIANGLES;
-    let shared: HashMap<usize, usize> =
-        uses.into_iter().filter(|&(mesh, count)| count > 1 && too_many(mesh, count)).collect();
-    let mut warnings: Vec<Warning> = shared.iter().map(|(&mesh, &count)| share_warning(scene, mesh, count)).collect();
+    shared.retain(|&mesh, nodes| nodes.len() > 1 && too_many(mesh, nodes.len()));
+    let mut warnings: Vec<Warning> = shared.iter().map(|(&mesh, nodes)| share_warning(scene, mesh, nodes)).collect();
     warnings.sort_by(|a, b| a.sentence.cmp(&b.sentence));
     let visible = objects.into_iter().enumerate().filter(|(index, _)| !hidden.contains(index));
     let prepared = visible.map(|(_, object)| {
@@ -72,14 +72,16 @@ pub fn visible_objects(scene: &Scene, grid: &Grid, motion: MotionReport) -> (Vec
     (prepared.collect(), warnings)
 }
 
-fn share_warning(scene: &Scene, mesh: usize, count: usize) -> Warning {
+fn share_warning(scene: &Scene, mesh: usize, nodes: &[usize]) -> Warning {
     let sentence = format!(
-        "mesh \"{}\": its {count} still objects share voxels, which are moved to where they stand and fall up to half a \
+        "mesh \"{}\": its {} still objects share voxels, which are moved to where they stand and fall up to half a \
          cell beside; voxels of their own would be made from more than {MOST_STILL_TRIANGLES} triangles",
-        scene.meshes[mesh].name
+        scene.meshes[mesh].name,
+        nodes.len()
     );
-    let nodes = scene.nodes.iter().enumerate().filter(|(_, node)| node.mesh == Some(mesh));
-    Warning { nodes: nodes.map(|(index, _)| index).collect(), ..Warning::new(sentence) }
+    let mut nodes = nodes.to_vec();
+    nodes.sort_unstable();
+    Warning { nodes, ..Warning::new(sentence) }
 }
 
 /// Whether the cells of a still object can be counted from the grid's anchor. One at no finite place, or too far, is as
