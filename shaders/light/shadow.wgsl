@@ -19,17 +19,20 @@ struct Vertex {
     @location(0) distance: f32,
     @location(1) tex_coord: vec2<f32>,
     @location(2) alpha: f32,
+    // Of the triangle: its first vertex speaks for all three.
+    @location(3) @interpolate(flat, first) mirrored: u32,
 }
 
 fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
     let p = vec4<f32>(moved_position(v.position, m), 1.0);
     let uv = slot_uv(draw.base_color_slot, v.tex_coords);
-    return Vertex(frame.clip_from_grid * p, dot(frame.distance, p), uv, unpack4x8unorm(v.color).a);
+    let mirrored = u32(is_mirrored(m));
+    return Vertex(frame.clip_from_grid * p, dot(frame.distance, p), uv, unpack4x8unorm(v.color).a, mirrored);
 }
 
 @fragment
-fn fragment(v: Vertex) -> @location(0) vec4<f32> {
-    if !is_there(presence_at(v.alpha, v.tex_coord), vec2<u32>(v.clip.xy)) {
+fn fragment(v: Vertex, @builtin(front_facing) is_front: bool) -> @location(0) vec4<f32> {
+    if is_back(is_front, v.mirrored) || !is_there(presence_at(v.alpha, v.tex_coord), vec2<u32>(v.clip.xy)) {
         discard;
     }
     return vec4<f32>(v.distance, 0.0, 0.0, 1.0);

@@ -49,7 +49,9 @@ struct DrawParams {
     normal_scale: f32,
     roughness: f32,
     metallic: f32,
-    pad: vec2<u32>,
+    // Only the side from which its corners go round against the clock is there.
+    single_sided: u32,
+    pad: u32,
     base_color_slot: TextureSlot,
     metallic_roughness_slot: TextureSlot,
     normal_slot: TextureSlot,
@@ -81,6 +83,12 @@ fn moved_direction(d: vec3<f32>, m: MeshMatrix) -> vec3<f32> {
 
 fn is_mirrored(m: MeshMatrix) -> bool {
     return dot(m.rows[0].xyz, cross(m.rows[1].xyz, m.rows[2].xyz)) < 0.0;
+}
+
+// The back of a single-sided surface is nowhere: not for the eye, not for a light. `mirrored`: 1 where the matrix of
+// the triangle turns its winding round.
+fn is_back(is_front_by_winding: bool, mirrored: u32) -> bool {
+    return draw.single_sided != 0u && is_front_by_winding == (mirrored != 0u);
 }
 
 // Which vertex corner `number` of the drawn triangles is.

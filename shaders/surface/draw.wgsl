@@ -4,6 +4,7 @@
 #import shared/packing.wgsl
 #import shared/octahedral.wgsl
 #import shared/base_color.wgsl
+#import shared/lens.wgsl
 
 struct SurfaceParams {
     // From camera space in cells: x right, y up, z backward. Depth is reversed.
@@ -41,6 +42,7 @@ struct Vertex {
     // Of the triangle: its first vertex speaks for all three. By its winding, unit length.
     @location(5) @interpolate(flat, first) face: vec3<f32>,
     @location(6) @interpolate(flat, first) face_tangent: vec4<f32>,
+    @location(7) @interpolate(flat, first) mirrored: u32,
 }
 
 struct Texel {
@@ -60,7 +62,9 @@ fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
     let handed = select(1.0, -1.0, ((v.tangent & LEFT_HANDED) != 0u) != is_mirrored(m));
     let tangent = vec4<f32>(unit(moved_direction(unpack_normal(v.tangent), m)), handed);
     let clip = surface.clip_from_camera * vec4<f32>(position, 1.0);
-    return Vertex(clip, position, normal, tangent, v.tex_coords, unpack4x8unorm(v.color), vec3<f32>(0.0), vec4<f32>(0.0));
+    let color = unpack4x8unorm(v.color);
+    let mirrored = u32(is_mirrored(m));
+    return Vertex(clip, position, normal, tangent, v.tex_coords, color, vec3<f32>(0.0), vec4<f32>(0.0), mirrored);
 }
 
 // What the triangle's first vertex says for all: its normal by winding, and the way in which u of the
@@ -141,12 +145,12 @@ fn shading_normal(v: Vertex, face: vec3<f32>, to_eye: vec3<f32>) -> vec3<f32> {
 }
 
 @fragment
-fn fragment(v: Vertex) -> Texel {
+fn fragment(v: Vertex, @builtin(front_facing) is_front: bool) -> Texel {
     let base = base_color_at(v.color, slot_uv(draw.base_color_slot, v.tex_coords));
-    if !is_there(base.presence, vec2<u32>(v.clip.xy)) {
+    if is_back(is_front, v.mirrored) || !is_there(base.presence, vec2<u32>(v.clip.xy)) {
         discard;
     }
-    let to_eye = -normalize(v.position);
+    let to_eye = -direction_of_sight(surface.clip_from_camera, v.position);
     let face = select(-v.face, v.face, dot(v.face, to_eye) >= 0.0);
     let normal = shading_normal(v, face, to_eye);
     let share = textureSample(metallic_roughness, metallic_roughness_sampler, slot_uv(draw.metallic_roughness_slot, v.tex_coords)).gb;
@@ -160,7 +164,7 @@ fn fragment(v: Vertex) -> Texel {
         rough_metallic = vec2<f32>(1.0);
         emission = base.color.rgb;
     }
-    let distance = bitcast<u32>(length(v.position));
+    let distance = bitcast<u32>(distance_seen(surface.clip_from_camera, v.position));
     let packed_normal = pack_octahedral(surface.world_from_camera * normal);
     let packed_face = pack_octahedral(surface.world_from_camera * face);
     let blue = pack2x16unorm(vec2<f32>(albedo.b, 0.0)) | pack4x8unorm(vec4<f32>(0.0, 0.0, rough_metallic));

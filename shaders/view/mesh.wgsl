@@ -4,6 +4,7 @@
 #import shared/view.wgsl
 #import shared/posed_vertex.wgsl
 #import shared/base_color.wgsl
+#import shared/lens.wgsl
 
 struct MeshParams {
     // From camera space in cells: x right, y up, z backward. Depth is reversed.
@@ -28,6 +29,8 @@ struct Vertex {
     @location(1) normal: vec3<f32>,
     @location(2) tex_coord: vec2<f32>,
     @location(3) color: vec4<f32>,
+    // Of the triangle: its first vertex speaks for all three.
+    @location(4) @interpolate(flat, first) mirrored: u32,
 }
 
 struct Pixel {
@@ -41,16 +44,17 @@ fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
     // Scaled once more, so that no cofactor of a small object vanishes in interpolation.
     let unit = normal * inverseSqrt(max(dot(normal, normal), 1e-37));
     let uv = slot_uv(draw.base_color_slot, v.tex_coords);
-    return Vertex(mesh.clip_from_camera * vec4<f32>(position, 1.0), position, unit, uv, unpack4x8unorm(v.color));
+    let clip = mesh.clip_from_camera * vec4<f32>(position, 1.0);
+    return Vertex(clip, position, unit, uv, unpack4x8unorm(v.color), u32(is_mirrored(m)));
 }
 
 @fragment
-fn fragment(v: Vertex) -> Pixel {
+fn fragment(v: Vertex, @builtin(front_facing) is_front: bool) -> Pixel {
     let surface = base_color_at(v.color, v.tex_coord);
-    if !is_there(surface.presence, vec2<u32>(v.clip.xy)) {
+    if is_back(is_front, v.mirrored) || !is_there(surface.presence, vec2<u32>(v.clip.xy)) {
         discard;
     }
-    let direction = normalize(v.position);
+    let direction = direction_of_sight(mesh.clip_from_camera, v.position);
     var color = surface.color.rgb;
     if view.color_by == COLOR_OBJECT {
         color = palette.colors[draw.object & 255u].rgb;
@@ -60,5 +64,5 @@ fn fragment(v: Vertex) -> Pixel {
     } else if draw.unlit == 0u {
         color = headlight(color, v.normal, direction);
     }
-    return Pixel(vec4<f32>(gamma_from_linear(color), 1.0), vec4<f32>(length(v.position), 0.0, 0.0, 1.0));
+    return Pixel(vec4<f32>(gamma_from_linear(color), 1.0), vec4<f32>(distance_seen(mesh.clip_from_camera, v.position), 0.0, 0.0, 1.0));
 }

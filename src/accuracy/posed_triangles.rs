@@ -3,13 +3,13 @@
 //!
 //! In: a prepared scene, a pose, what is hidden. Out: triangles in cells from the grid's corner, f64, and
 //! whether anything lies on a segment. What MASK cuts out by its cutoff, and BLEND where it is less than
-//! half there, is a hole.
+//! half there, is a hole; from behind, a single-sided surface is none.
 
 use glam::DVec3;
 
 use super::cut_outs::CutOuts;
 use super::ray_tree::{RayTree, Segment};
-use super::triangle::{PosedTriangle, weighted};
+use super::triangle::{PosedTriangle, Sides, weighted};
 use crate::prepare::{MotionError, Prepared};
 use crate::scene::Pose;
 use crate::settings::{Hidden, MotionSettings};
@@ -82,9 +82,16 @@ impl<'a> PosedTriangles<'a> {
         }
         for (index, (primitive, positions)) in primitives.iter().zip(&posed).enumerate() {
             let surface = self.surfaces.len() as u32;
+            let mirrored = scene.mirrored_vertices(&object.object, index, pose);
+            let is_double_sided = scene.material_of(primitive).double_sided;
             triangles.extend(primitive.triangles.iter().map(|&vertices| {
                 let corners = vertices.map(|vertex| positions[vertex as usize]);
-                PosedTriangle { corners, vertices, surface }
+                let sides = match mirrored[vertices[0] as usize] {
+                    _ if is_double_sided => Sides::Both,
+                    true => Sides::Back,
+                    false => Sides::Front,
+                };
+                PosedTriangle { corners, vertices, surface, sides }
             }));
             let normals = scene.posed_normals(&object.object, index, pose);
             let cut_outs = CutOuts::new(prepared, primitive);
@@ -129,12 +136,13 @@ impl<'a> PosedTriangles<'a> {
         Some(SurfacePoint { position, face, shading: weighted(normals, place).try_normalize().unwrap_or(face) })
     }
 
-    /// Does anything lie within `length` cells of `from` along `direction` (unit length)? Any length will
-    /// do, infinite too.
+    /// Does anything hide a light that is `length` cells from `from` along `direction` (unit length)? Any length will
+    /// do, infinite too. What turns its single side away from the light hides nothing.
     pub fn is_hidden(&self, from: DVec3, direction: DVec3, length: f64) -> bool {
         self.tree.meets_any(Segment { from, direction, length }, |triangle, place| {
             let triangle = &self.tree.triangles()[triangle];
-            !self.surfaces[triangle.surface as usize].is_hole(triangle.vertices, place)
+            let is_hole = || self.surfaces[triangle.surface as usize].is_hole(triangle.vertices, place);
+            triangle.is_there_along(-direction) && !is_hole()
         })
     }
 }
@@ -150,7 +158,8 @@ mod tests {
     use super::*;
 
     fn posed(corners: &[[DVec3; 3]]) -> PosedTriangles<'static> {
-        let triangle = |&corners: &[DVec3; 3]| PosedTriangle { corners, vertices: [0, 1, 2], surface: 0 };
+        let triangle =
+            |&corners: &[DVec3; 3]| PosedTriangle { corners, vertices: [0, 1, 2], surface: 0, sides: Sides::Both };
         let triangles: Vec<PosedTriangle> = corners.iter().map(triangle).collect();
         let surfaces = vec![PosedSurface { object: 0, primitive: 0, normals: vec![DVec3::Y; 3], cut_outs: None }];
         PosedTriangles { tree: RayTree::new(triangles), surfaces, warnings: Vec::new() }

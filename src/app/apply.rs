@@ -28,7 +28,7 @@ impl App {
                 self.moved_at_secs = Some(clock_secs);
             }
             Command::SceneCamera(camera) => self.look_through(camera),
-            Command::FrameAll => self.settings.shot.camera = None,
+            Command::FrameAll => (self.settings.shot.camera, self.settings.shot.file_camera) = (None, None),
             Command::Frame => self.frame_selected(),
             Command::Select(node) => self.select(node),
             Command::ToggleShown => self.toggle_shown(),

@@ -11,7 +11,7 @@ use super::panels::light::LightPanel;
 use super::panels::reference::ReferencePanel;
 use super::panels::top_bar::TopBar;
 use super::panels::tree_row::TreePanel;
-use super::panels::view::ViewPanel;
+use super::panels::view::{CameraChoice, ViewPanel};
 use super::panels::{self, section};
 use super::{App, shortcuts, theme};
 use crate::lights::Shines;
@@ -144,7 +144,12 @@ impl App {
         let panel = ViewPanel {
             look: &settings.method.look,
             depth: prepared.map_or(settings.method.discretization.depth(), |prepared| prepared.grid.depth),
-            is_camera_free: settings.shot.camera.is_some(),
+            camera: match (&settings.shot.camera, &settings.shot.file_camera) {
+                (Some(_), _) => CameraChoice::Free,
+                (None, Some(name)) => CameraChoice::OfFile(name),
+                (None, None) => CameraChoice::Framed,
+            },
+            seen: self.camera(self.view_px),
             cameras: prepared.map_or(&[][..], |prepared| &prepared.scene.cameras),
             lights: &self.shining(),
             exposure: self.stage.exposure,

@@ -143,7 +143,7 @@ mod tests {
     fn projection(distance: f64) -> Projection {
         let grid = Grid { anchor: DVec3::ZERO, offset_cells: glam::IVec3::ZERO, span: 1.0, depth: 3 };
         let target = DVec3::splat(4.0);
-        let camera = OrbitCamera { eye: target + DVec3::Z * distance, target, fov_y_degrees: 90.0 };
+        let camera = OrbitCamera::new(target + DVec3::Z * distance, target, 90.0);
         let rect = Rect::from_min_size(pos2(10.0, 20.0), egui::vec2(50.0, 50.0));
         Projection { rays: PixelRays::new(&camera, &grid, [100, 100]), rect, depth: 3 }
     }

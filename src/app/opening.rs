@@ -11,7 +11,6 @@ use super::undo::Undo;
 use super::{App, panels};
 use crate::prepare::{Preparation, Prepared};
 use crate::scene::Scene;
-use crate::scene::camera::camera_from_scene_camera;
 use crate::scene::load::SceneChoice;
 use crate::settings::{Fit, MotionSettings, NodeNames, Visibility};
 
@@ -86,7 +85,7 @@ impl App {
         if ready.is_new {
             if self.scene.is_some() {
                 self.settings.shot.motion = MotionSettings::default();
-                self.settings.shot.camera = None;
+                (self.settings.shot.camera, self.settings.shot.file_camera) = (None, None);
                 self.settings.shot.visibility = Visibility::default();
                 // Places and nodes of the scene before mean nothing here.
                 self.settings.method.lighting.edits.clear();
@@ -116,7 +115,8 @@ impl App {
         if is_new {
             self.finish_restoring();
         }
-        let opens_with_its_camera = is_new && self.settings.shot.camera.is_none();
+        let shot = &self.settings.shot;
+        let opens_with_its_camera = is_new && shot.camera.is_none() && shot.file_camera.is_none();
         if opens_with_its_camera {
             self.look_through(0);
         }
@@ -159,10 +159,9 @@ impl App {
 
     /// Takes a camera of the file, if it has this one.
     pub(super) fn look_through(&mut self, camera: usize) {
-        let Some(prepared) = self.prepared() else { return };
-        let Ok(pose) = prepared.pose(&self.settings.shot.motion) else { return };
-        if let Some(camera) = camera_from_scene_camera(&prepared.scene, camera, &pose) {
-            self.settings.shot.camera = Some(camera);
+        let cameras = self.prepared().map_or(&[][..], |prepared| &prepared.scene.cameras);
+        if let Some(name) = cameras.get(camera).map(|camera| camera.name.clone()) {
+            (self.settings.shot.camera, self.settings.shot.file_camera) = (None, Some(name));
         }
     }
 }

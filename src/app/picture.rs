@@ -46,11 +46,16 @@ impl App {
         self.overlay_ui(ui, rect, size_px, full_px);
     }
 
-    /// What the camera of the settings is when it frames everything.
+    /// The camera that is set, else the one of the file that is looked through, else one that frames everything.
     pub(super) fn camera(&self, full_px: [u32; 2]) -> OrbitCamera {
-        self.settings.shot.camera.unwrap_or_else(|| {
+        let aspect = f64::from(full_px[0]) / f64::from(full_px[1]);
+        let of_file = || {
+            let prepared = self.prepared().filter(|_| self.settings.shot.file_camera.is_some())?;
+            let pose = prepared.pose(&self.settings.shot.motion).ok()?;
+            prepared.scene.camera_at(prepared.camera_index(&self.settings.shot).ok()??, &pose, aspect)
+        };
+        self.settings.shot.camera.or_else(of_file).unwrap_or_else(|| {
             let mut camera = OrbitCamera::default();
-            let aspect = f64::from(full_px[0]) / f64::from(full_px[1]);
             camera.frame(self.prepared().and_then(|prepared| prepared.bounds), aspect);
             camera
         })

@@ -39,6 +39,10 @@ pub fn fitted(settings: &mut Settings, scene: &Scene) -> Vec<String> {
     if let Some(lost) = settings.shot.motion.clip.take_if(|name| !known(name)) {
         notes.push(format!("there is no clip \"{lost}\"; the first is played."));
     }
+    let has = |name: &String| scene.cameras.iter().any(|camera| camera.name == *name);
+    if let Some(lost) = settings.shot.file_camera.take_if(|name| !has(name)) {
+        notes.push(format!("there is no camera \"{lost}\"; all is framed."));
+    }
     let visibility = &mut settings.shot.visibility;
     if let Err(error) = visibility.shown_nodes(scene) {
         *visibility = Visibility::default();

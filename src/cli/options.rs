@@ -52,7 +52,7 @@ pub struct Common {
     /// Turns the whole scene about its centre after voxelization: degrees about x, y, z
     #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true)]
     turn: Option<[f64; 3]>,
-    /// Where the camera is; otherwise the file's first camera shows the scene, or one that frames everything
+    /// Where the camera is; otherwise a camera of the file shows the scene, or one that frames everything
     #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true, requires = "target")]
     eye: Option<[f64; 3]>,
     /// What the camera looks at
@@ -61,6 +61,15 @@ pub struct Common {
     /// The camera's vertical field of view
     #[arg(long, value_name = "DEGREES", value_parser = values::number, allow_hyphen_values = true, requires = "eye")]
     fov: Option<f64>,
+    /// Turns the camera about its line of sight, to the left
+    #[arg(long, value_name = "DEGREES", value_parser = values::number, allow_hyphen_values = true, requires = "eye")]
+    roll: Option<f64>,
+    /// An orthographic view of this height, scene units
+    #[arg(long, value_name = "HEIGHT", value_parser = values::number, allow_hyphen_values = true, requires = "eye", conflicts_with = "fov")]
+    orthographic: Option<f64>,
+    /// Which of the file's cameras is looked through, by name or number from 0, as the clip moves it
+    #[arg(long, value_name = "NAME|NUMBER", conflicts_with = "eye")]
+    camera: Option<String>,
     /// Hides nodes with everything below them, by name; all of the name if several have it. Repeatable
     #[arg(long, value_name = "NAME")]
     hide: Vec<String>,
@@ -114,7 +123,12 @@ impl Common {
         }
         if let (Some(eye), Some(target)) = (self.eye, self.target) {
             let fov_y_degrees = self.fov.unwrap_or(OrbitCamera::default().fov_y_degrees);
-            settings.shot.camera = Some(OrbitCamera { eye: eye.into(), target: target.into(), fov_y_degrees });
+            let seen = OrbitCamera::new(eye.into(), target.into(), fov_y_degrees);
+            let (roll_degrees, orthographic_height) = (self.roll.unwrap_or_default(), self.orthographic);
+            settings.shot.camera = Some(OrbitCamera { roll_degrees, orthographic_height, ..seen });
+        }
+        if self.camera.is_some() {
+            (settings.shot.camera, settings.shot.file_camera) = (None, self.camera.clone());
         }
         self.lighting.apply(&mut settings.method.lighting);
         self.cones.apply(&mut settings.method.cone_tracing);

@@ -107,6 +107,7 @@ pub fn prepare_only(
     output::warnings(&names.change_lights(&scene, &mut settings.method.lighting)?);
     settings.shot.visibility.shown_nodes(&scene)?;
     let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;
+    prepared.camera_index(&settings.shot)?;
     output::warnings(&prepared.warnings);
     if disk.is_some() {
         output::message(&format!("{}, in {:.0} ms", prepared.origins, prepared.voxelize_ms));

@@ -31,9 +31,7 @@ pub fn facts(prepared: &Prepared, frame: &FrameMatrices, hidden: &Hidden, glossy
 
 /// What a texture makes of a roughness is known per pixel only.
 fn may_be_glossy(scene: &Scene, primitive: &Primitive, glossy_roughness: f64) -> bool {
-    let material = primitive.material.and_then(|material| scene.materials.get(material));
-    material.is_some_and(|material| {
-        let is_smooth = f64::from(material.roughness) <= glossy_roughness;
-        !material.unlit && (is_smooth || material.metallic_roughness_texture.is_some())
-    })
+    let material = scene.material_of(primitive);
+    let is_smooth = f64::from(material.roughness) <= glossy_roughness;
+    !material.unlit && (is_smooth || material.metallic_roughness_texture.is_some())
 }

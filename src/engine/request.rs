@@ -154,6 +154,18 @@ impl Shot {
         Digest::of_bytes(&[self.placed.bytes(), Digest::of(&(self.camera, self.size_px)).bytes()])
     }
 
+    /// How far from the eye what is shown may be, along the line of sight; scene units.
+    pub fn farthest(&self, prepared: &Prepared) -> f64 {
+        // A perspective camera sees without end.
+        if self.camera.orthographic_height.is_none() {
+            return f64::INFINITY;
+        }
+        let forward = -self.camera.world_from_camera().z_axis.truncate();
+        let corners = prepared.bounds_at(&self.pose, &self.hidden).map(|bounds| bounds.corners());
+        let depths = corners.into_iter().flatten().map(|corner| (corner - self.camera.eye).dot(forward));
+        depths.fold(0.0, f64::max)
+    }
+
     fn new(
         prepared: &Prepared,
         settings: &Settings,

@@ -106,7 +106,7 @@ mod tests {
         (expected.shot.motion.time_secs, expected.shot.motion.turn_degrees) = (1.25, [0.0, 20.0, 0.0]);
         (expected.method.look.color, expected.method.look.exposure_stops) = (ColorBy::Radiance, Some(-1.0));
         let (eye, target) = (DVec3::new(6.0, 4.0, 9.0), DVec3::new(0.0, 1.0, 0.0));
-        expected.shot.camera = Some(OrbitCamera { eye, target, fov_y_degrees: 45.0 });
+        expected.shot.camera = Some(OrbitCamera::new(eye, target, 45.0));
         let lighting = &mut expected.method.lighting;
         lighting.sun.shines = SunShines::Never;
         (lighting.sky_nits, lighting.shadows) = ([0.5, 0.7, 1.0], Shadows::March);

@@ -2,20 +2,45 @@
 
 use super::{MotionError, Prepared};
 use crate::scene::bounds::union;
-use crate::scene::camera::camera_from_scene_camera;
 use crate::scene::{Aabb, Object, OrbitCamera, Pose};
-use crate::settings::{MotionSettings, Settings, ShotSettings};
+use crate::settings::{Hidden, MotionSettings, Settings, ShotSettings};
+
+/// The settings look through a camera that the file has not.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{scene} has no camera called \"{camera}\"; its cameras are {known}")]
+pub struct UnknownCamera {
+    pub scene: String,
+    pub camera: String,
+    pub known: String,
+}
 
 /// Nodes without any surface below them are framed with this share of the scene around them.
 const SURROUNDINGS: f64 = 0.05;
 
 impl Prepared {
-    /// The camera that is set, else the file's first, else one that frames everything in a picture of this size.
+    /// Which of the file's cameras is looked through, by name or else by number from 0: the first where none is named.
+    pub fn camera_index(&self, shot: &ShotSettings) -> Result<Option<usize>, UnknownCamera> {
+        let cameras = &self.scene.cameras;
+        let Some(name) = &shot.file_camera else { return Ok((!cameras.is_empty()).then_some(0)) };
+        let by_number = || name.parse().ok().filter(|number| *number < cameras.len());
+        let index = cameras.iter().position(|camera| camera.name == *name).or_else(by_number);
+        index.map(Some).ok_or_else(|| UnknownCamera {
+            scene: self.scene.name.clone(),
+            camera: name.clone(),
+            known: match cameras.len() {
+                0 => "none".to_owned(),
+                _ => cameras.iter().map(|camera| format!("\"{}\"", camera.name)).collect::<Vec<_>>().join(", "),
+            },
+        })
+    }
+
+    /// The camera that is set, else the file's, else one that frames everything in a picture of this size.
     pub fn camera(&self, settings: &Settings, pose: &Pose, size_px: [u32; 2]) -> OrbitCamera {
-        let of_file = || camera_from_scene_camera(&self.scene, 0, pose);
+        let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
+        let of_file = || self.scene.camera_at(self.camera_index(&settings.shot).ok()??, pose, aspect);
         settings.shot.camera.or_else(of_file).unwrap_or_else(|| {
             let mut camera = OrbitCamera::default();
-            camera.frame(self.bounds, f64::from(size_px[0]) / f64::from(size_px[1]));
+            camera.frame(self.bounds, aspect);
             camera
         })
     }
@@ -24,9 +49,14 @@ impl Prepared {
     pub fn bounds_shown(&self, shot: &ShotSettings) -> Option<Aabb> {
         let pose = self.pose(&shot.motion).ok()?;
         let hidden = self.hidden(&shot.visibility, &pose).ok()?;
+        self.bounds_at(&pose, &hidden)
+    }
+
+    /// The same of a pose.
+    pub fn bounds_at(&self, pose: &Pose, hidden: &Hidden) -> Option<Aabb> {
         let shown = (0..).zip(&self.objects).filter(|(number, _)| !hidden.contains(*number));
         let objects: Vec<Object> = shown.map(|(_, object)| object.object.clone()).collect();
-        self.scene.boxes_at(&objects, &pose).into_iter().fold(None, union)
+        self.scene.boxes_at(&objects, pose).into_iter().fold(None, union)
     }
 
     /// The box around all that a node and those below it show in a pose, hidden or not; around the

@@ -4,18 +4,30 @@
 //! viewport or the scene. Depth is reversed, 1 at the near plane and 0 at infinity: float depth
 //! then resolves far and near equally well. Clear it to 0, compare with `Greater`.
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use serde::{Deserialize, Serialize};
 
-use super::{Aabb, Pose, Projection, Scene};
+use super::Aabb;
 
 /// Right-handed, looks from `eye` to `target`. Never degenerate: see [`OrbitCamera::world_up`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct OrbitCamera {
     pub eye: DVec3,
     pub target: DVec3,
-    /// Full vertical angle.
+    /// Full vertical angle of a perspective view.
     pub fov_y_degrees: f64,
+    /// By how much the camera is turned about its line of sight, to the left as it sees it itself.
+    #[serde(default, skip_serializing_if = "is_upright")]
+    pub roll_degrees: f64,
+    /// Height of what an orthographic view shows, scene units; `None`: perspective. What lies behind the eye is seen
+    /// by neither.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orthographic_height: Option<f64>,
+}
+
+fn is_upright(roll_degrees: &f64) -> bool {
+    *roll_degrees == 0.0
 }
 
 const DEFAULT_FOV_Y_DEGREES: f64 = 45.0;
@@ -34,11 +46,16 @@ const DISTANCES: (f64, f64) = (1e-15, 1e15);
 impl Default for OrbitCamera {
     /// Looks at the origin from the front, the right and above.
     fn default() -> Self {
-        Self { eye: DVec3::new(1.5, 1.2, 2.5), target: DVec3::ZERO, fov_y_degrees: DEFAULT_FOV_Y_DEGREES }
+        Self::new(DVec3::new(1.5, 1.2, 2.5), DVec3::ZERO, DEFAULT_FOV_Y_DEGREES)
     }
 }
 
 impl OrbitCamera {
+    /// Perspective and upright.
+    pub const fn new(eye: DVec3, target: DVec3, fov_y_degrees: f64) -> Self {
+        Self { eye, target, fov_y_degrees, roll_degrees: 0.0, orthographic_height: None }
+    }
+
     /// World up, or another axis when looking straight along it: the one orbiting there leads to.
     pub fn world_up(&self) -> DVec3 {
         let forward = (self.target - self.eye).normalize_or(DVec3::NEG_Z);
@@ -48,8 +65,10 @@ impl OrbitCamera {
     /// Columns right, up, backward, eye.
     pub fn world_from_camera(&self) -> DMat4 {
         let backward = (self.eye - self.target).normalize_or(DVec3::Z);
-        let right = self.world_up().cross(backward).normalize_or(DVec3::X);
-        let up = backward.cross(right);
+        let level = self.world_up().cross(backward).normalize_or(DVec3::X);
+        let upright = backward.cross(level);
+        let roll = if self.roll_degrees.is_finite() { self.roll_degrees.to_radians() } else { 0.0 };
+        let (right, up) = (level * roll.cos() + upright * roll.sin(), upright * roll.cos() - level * roll.sin());
         DMat4::from_cols(right.extend(0.0), up.extend(0.0), backward.extend(0.0), self.eye.extend(1.0))
     }
 
@@ -84,16 +103,20 @@ impl OrbitCamera {
             return;
         }
         let axes = self.world_from_camera();
-        let height = 2.0 * self.distance() * self.half_fov_tangent();
+        let height = 2.0 * self.half_height();
         let shift = (axes.x_axis * right_heights + axes.y_axis * up_heights).truncate() * height;
         self.eye += shift;
         self.target += shift;
     }
 
-    /// Multiplies the distance to the target; below 1 comes nearer.
+    /// Multiplies the distance to the target, or the height of an orthographic view; below 1 comes nearer.
     pub fn zoom(&mut self, factor: f64) {
-        if factor.is_finite() && factor > 0.0 {
-            self.move_to(self.target, self.distance() * factor);
+        if !(factor.is_finite() && factor > 0.0) {
+            return;
+        }
+        match &mut self.orthographic_height {
+            Some(height) => *height = (*height * factor).clamp(DISTANCES.0, DISTANCES.1),
+            None => self.move_to(self.target, self.distance() * factor),
         }
     }
 
@@ -103,28 +126,59 @@ impl OrbitCamera {
         let bounds = bounds.filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite());
         let (center, radius) = bounds.map_or((DVec3::ZERO, 0.0), |b| (b.center(), b.size().length() / 2.0));
         let radius = if radius > 0.0 && radius.is_finite() { radius } else { 1.0 };
-        let tangent = self.half_fov_tangent() * usable_aspect(aspect).min(1.0);
-        self.move_to(center, radius / tangent.atan().sin());
+        let narrow = usable_aspect(aspect).min(1.0);
+        self.move_to(center, radius / (self.half_fov_tangent() * narrow).atan().sin());
+        if let Some(height) = &mut self.orthographic_height {
+            *height = 2.0 * radius / narrow;
+        }
     }
 
-    /// Clip space from camera space for wgpu, reversed depth, near plane at a thousandth of the
-    /// target's distance, far plane at infinity.
-    pub fn projection(&self, aspect: f64) -> DMat4 {
-        self.projection_between(aspect, NEAR_SHARE * self.distance(), f64::INFINITY)
+    /// Shows as much to the sides as a picture of aspect `shown`, in one of aspect `aspect`: more above and below where
+    /// that is narrower.
+    pub fn widen(&mut self, shown: f64, aspect: f64) {
+        let factor = (usable_aspect(shown) / usable_aspect(aspect)).max(1.0);
+        match &mut self.orthographic_height {
+            Some(height) => *height *= factor,
+            None => self.fov_y_degrees = 2.0 * (self.half_fov_tangent() * factor).atan().to_degrees(),
+        }
     }
 
-    /// The same between two planes, in scene units. A near plane that makes no sense is that of
-    /// [`Self::projection`]; a far plane not beyond it is at infinity.
-    pub fn projection_between(&self, aspect: f64, near: f64, far: f64) -> DMat4 {
-        let near = if near.is_finite() && near > 0.0 { near } else { NEAR_SHARE * self.distance() };
-        let depth_scale = if far > near { near / (far - near) } else { 0.0 };
-        let y = 1.0 / self.half_fov_tangent();
-        DMat4::from_cols(
-            DVec4::X * (y / usable_aspect(aspect)),
-            DVec4::Y * y,
-            DVec4::new(0.0, 0.0, depth_scale, -1.0),
-            DVec4::new(0.0, 0.0, near * (1.0 + depth_scale), 0.0),
-        )
+    /// Another lens that shows as much at the target, from the same side.
+    pub fn set_orthographic(&mut self, orthographic: bool) {
+        let half_height = self.half_height();
+        self.orthographic_height = orthographic.then_some(2.0 * half_height);
+        if !orthographic {
+            self.move_to(self.target, half_height / self.half_fov_tangent());
+        }
+    }
+
+    /// Half of the width and of the height that a picture shows: one unit ahead of a perspective camera, anywhere ahead
+    /// of an orthographic one. Scene units.
+    pub fn half_extents(&self, aspect: f64) -> DVec2 {
+        let half_height = match self.orthographic_height {
+            Some(_) => self.half_height(),
+            None => self.half_fov_tangent(),
+        };
+        DVec2::new(half_height * usable_aspect(aspect), half_height)
+    }
+
+    /// From the eye to the plane before which nothing is seen: a thousandth of the target's distance, and the eye's own
+    /// plane for an orthographic camera. Scene units.
+    pub fn near(&self) -> f64 {
+        if self.orthographic_height.is_some() { 0.0 } else { NEAR_SHARE * self.distance() }
+    }
+
+    /// Clip space from camera space for wgpu, reversed depth. The far plane is at infinity, or at `farthest` scene units
+    /// from an orthographic camera.
+    pub fn projection(&self, aspect: f64, farthest: f64) -> DMat4 {
+        let half = self.half_extents(aspect);
+        let (x, y) = (DVec4::X / half.x, DVec4::Y / half.y);
+        if self.orthographic_height.is_none() {
+            return DMat4::from_cols(x, y, DVec4::NEG_W, DVec4::Z * self.near());
+        }
+        // A little behind what is farthest, which would be nowhere at depth 0.
+        let reach = if farthest.is_finite() { farthest.max(DISTANCES.0) * (1.0 + NEAR_SHARE) } else { DISTANCES.1 };
+        DMat4::from_cols(x, y, DVec4::Z / reach, DVec4::new(0.0, 0.0, 1.0, 1.0))
     }
 
     /// Keeps the direction.
@@ -133,6 +187,14 @@ impl OrbitCamera {
         let nearest = DISTANCES.0.max(NEAREST_SHARE * target.length());
         self.target = target;
         self.eye = target + direction * distance.clamp(nearest, DISTANCES.1.max(nearest));
+    }
+
+    /// Half of the height that is shown at the target's distance, scene units.
+    fn half_height(&self) -> f64 {
+        match self.orthographic_height {
+            Some(height) if height.is_finite() && height > 0.0 => height / 2.0,
+            _ => self.distance() * self.half_fov_tangent(),
+        }
     }
 
     fn half_fov_tangent(&self) -> f64 {
@@ -144,29 +206,4 @@ impl OrbitCamera {
 /// Width over height; a viewport without either counts as square, none as thinner than 1 : 10 000.
 fn usable_aspect(aspect: f64) -> f64 {
     if aspect.is_finite() && aspect > 0.0 { aspect.clamp(1e-4, 1e4) } else { 1.0 }
-}
-
-/// The view of a camera of the file, as far as an orbiting camera can take it: its roll is lost, and
-/// an orthographic one becomes a perspective that shows the same at its target. The target is where
-/// the view passes the middle of the scene. `None` if no node with a usable matrix carries it.
-pub fn camera_from_scene_camera(scene: &Scene, camera: usize, pose: &Pose) -> Option<OrbitCamera> {
-    let lens = scene.cameras.get(camera)?.projection;
-    let node = scene.nodes.iter().position(|node| node.camera == Some(camera))?;
-    let world_from_node = pose.world_from_node.get(node)?;
-    let place = world_from_node.w_axis.truncate();
-    let forward = (-world_from_node.z_axis.truncate()).try_normalize()?;
-    if !place.is_finite() {
-        return None;
-    }
-    let ahead = scene.bounds_at(pose).map_or(1.0, |bounds| (bounds.center() - place).dot(forward));
-    let target = place + forward * if ahead > DISTANCES.0 { ahead } else { 1.0 };
-    Some(match lens {
-        Projection::Perspective { fov_y_radians, .. } => {
-            OrbitCamera { eye: place, target, fov_y_degrees: fov_y_radians.to_degrees() }
-        }
-        Projection::Orthographic { half_height, .. } => {
-            let distance = half_height / (DEFAULT_FOV_Y_DEGREES.to_radians() / 2.0).tan();
-            OrbitCamera { eye: target - forward * distance, target, fov_y_degrees: DEFAULT_FOV_Y_DEGREES }
-        }
-    })
 }

@@ -60,6 +60,18 @@ impl Scene {
         }
     }
 
+    /// Of a primitive's vertices: does its matrix turn what it moves inside out?
+    pub fn mirrored_vertices(&self, object: &Object, primitive: usize, pose: &Pose) -> Vec<bool> {
+        let primitive = &self.meshes[object.mesh].primitives[primitive];
+        let vertices = 0..primitive.positions.len();
+        match self.mover(object, primitive, pose) {
+            Mover::Rigid(matrix) => vec![matrix.determinant() < 0.0; vertices.len()],
+            Mover::Skinned(joints) => {
+                vertices.into_par_iter().map(|vertex| blend(primitive, vertex, &joints).determinant() < 0.0).collect()
+            }
+        }
+    }
+
     fn mover(&self, object: &Object, primitive: &Primitive, pose: &Pose) -> Mover {
         match object.motion {
             Motion::Skinned { skin } if !primitive.joints.is_empty() => Mover::Skinned(self.joint_matrices(skin, pose)),

@@ -7,6 +7,7 @@ pub mod animation;
 pub mod bounds;
 pub mod builtin;
 pub mod camera;
+mod file_camera;
 pub mod geometry;
 mod identity;
 pub mod load;
@@ -21,6 +22,7 @@ pub mod warning;
 
 use std::collections::HashSet;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use glam::{DMat4, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -28,6 +30,7 @@ use serde::{Deserialize, Serialize};
 pub use animation::{Channel, Clip, Interpolation, Property};
 pub use bounds::Aabb;
 pub use camera::OrbitCamera;
+pub use file_camera::{Projection, SceneCamera};
 pub use identity::SceneIdentity;
 pub use material::{AlphaMode, Material, Texture, TextureRef, Wrap};
 pub use mesh::{Mesh, Primitive};
@@ -66,6 +69,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// glTF's default one where a primitive names none.
+    pub fn material_of(&self, primitive: &Primitive) -> &Material {
+        static DEFAULT: LazyLock<Material> = LazyLock::new(Material::default);
+        primitive.material.and_then(|material| self.materials.get(material)).unwrap_or(&DEFAULT)
+    }
+
     /// Nodes that are joints of a skin, each once.
     pub fn joint_count(&self) -> usize {
         self.skins.iter().flat_map(|skin| &skin.joints).collect::<HashSet<_>>().len()
@@ -119,19 +128,6 @@ impl LocalTransform {
             Self::Trs(trs) => trs.matrix(),
         }
     }
-}
-
-/// A camera of the file; its pose is that of the node that carries it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneCamera {
-    pub name: String,
-    pub projection: Projection,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Projection {
-    Perspective { fov_y_radians: f64, near: f64, far: Option<f64> },
-    Orthographic { half_width: f64, half_height: f64, near: f64, far: f64 },
 }
 
 /// KHR_lights_punctual in its units: lux for directional, candela for point and spot.

@@ -97,8 +97,7 @@ mod tests {
         (expected.method.discretization.grid, expected.method.look.shaded) = (256, false);
         expected.shot.motion.time_secs = 2.0;
         expected.shot.fit.to = FitTo::Scene;
-        expected.shot.camera =
-            Some(OrbitCamera { eye: [1.0, 2.0, 3.0].into(), target: [0.0; 3].into(), fov_y_degrees: 50.0 });
+        expected.shot.camera = Some(OrbitCamera::new([1.0, 2.0, 3.0].into(), [0.0; 3].into(), 50.0));
         assert_eq!(Settings::from_json(text), Ok(expected.clone()));
         assert_eq!(Settings::from_json(&numbered), Ok(expected));
         let mut empty = Settings::default();

@@ -17,8 +17,11 @@ pub struct ShotSettings {
     pub visibility: Visibility,
     /// What the grid encloses.
     pub fit: Fit,
-    /// `None`: frames everything.
+    /// `None`: that of the file.
     pub camera: Option<OrbitCamera>,
+    /// Which of the file's cameras is looked through, by name or by number from 0; as the clip moves it. `None`: the
+    /// first, and where there is none all is framed.
+    pub file_camera: Option<String>,
     /// Width and height of the picture. What is saved tells its own; `None`: whoever draws decides, the window by
     /// its own size.
     pub size_px: Option<[u32; 2]>,
@@ -48,6 +51,12 @@ fn check_camera(camera: &OrbitCamera) -> Result<(), String> {
     }
     if camera.eye == camera.target {
         return Err("the camera's eye and target must differ".to_owned());
+    }
+    if !camera.roll_degrees.is_finite() {
+        return Err(format!("a roll of {} degrees is not finite", camera.roll_degrees));
+    }
+    if let Some(height) = camera.orthographic_height.filter(|height| !(height.is_finite() && *height > 0.0)) {
+        return Err(format!("an orthographic view of height {height} is not positive and finite"));
     }
     if !FOV_Y_DEGREES.contains(&camera.fov_y_degrees) {
         let (least, most) = (FOV_Y_DEGREES.start(), FOV_Y_DEGREES.end());

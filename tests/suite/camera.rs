@@ -2,18 +2,19 @@
 
 use approx::assert_relative_eq;
 use glam::{DMat4, DQuat, DVec3};
-use octolume::scene::{
-    Aabb, LocalTransform, Node, OrbitCamera, Projection, Scene, SceneCamera, Trs, camera::camera_from_scene_camera,
-};
+use octolume::scene::{Aabb, LocalTransform, Node, OrbitCamera, Projection, Scene, SceneCamera, Trs};
 use proptest::prelude::*;
 
+/// No test looks at what is farther from an orthographic camera.
+const FARTHEST: f64 = 1e4;
+
 fn looking(eye: DVec3, target: DVec3) -> OrbitCamera {
-    OrbitCamera { eye, target, fov_y_degrees: 45.0 }
+    OrbitCamera::new(eye, target, 45.0)
 }
 
 /// Finite here and as the f32 numbers a GPU gets, with a view that is a rigid motion.
 fn assert_sound(camera: &OrbitCamera, aspect: f64) {
-    let (view, projection) = (camera.camera_from_world(), camera.projection(aspect));
+    let (view, projection) = (camera.camera_from_world(), camera.projection(aspect, FARTHEST));
     for matrix in [view, projection, projection * view] {
         assert!(matrix.as_mat4().is_finite(), "{camera:?} at {aspect}: {matrix}");
     }
@@ -25,7 +26,7 @@ fn assert_sound(camera: &OrbitCamera, aspect: f64) {
 
 /// Depth and position on the image (−1 to 1) of a world point.
 fn seen(camera: &OrbitCamera, aspect: f64, point: DVec3) -> DVec3 {
-    (camera.projection(aspect) * camera.camera_from_world()).project_point3(point)
+    (camera.projection(aspect, FARTHEST) * camera.camera_from_world()).project_point3(point)
 }
 
 #[test]
@@ -61,24 +62,76 @@ fn a_viewport_of_no_size_is_sound() {
     }
 }
 
+/// Reversed: 1 on the near plane, 0 at infinity; 0 just behind what is farthest from an orthographic camera.
 #[test]
-fn planes_out_of_order_are_sound() {
-    let camera = OrbitCamera::default();
-    for (near, far) in [(1.0, 1.0), (2.0, 1.0), (0.0, 0.0), (-1.0, 5.0), (f64::NAN, f64::NAN), (1.0, f64::INFINITY)] {
-        assert!(camera.projection_between(1.0, near, far).as_mat4().is_finite(), "{near} to {far}");
+fn depth_is_reversed() {
+    let depth = |projection: DMat4, distance: f64| projection.project_point3(DVec3::NEG_Z * distance).z;
+    let camera = looking(DVec3::Z * 1000.0, DVec3::ZERO);
+    let projection = camera.projection(1.0, FARTHEST);
+    assert_relative_eq!(depth(projection, camera.near()), 1.0, epsilon = 1e-12);
+    assert!(depth(projection, 1e12) > 0.0);
+    let flat = orthographic(camera, 4.0);
+    assert_eq!((flat.near(), depth(flat.projection(1.0, 8.0), 0.0)), (0.0, 1.0));
+    for farthest in [1e-9, 1.0, 8.0, 1e12] {
+        let last = depth(flat.projection(1.0, farthest), farthest);
+        assert!(last > 0.0 && last < 2e-3, "{farthest}: {last}");
+    }
+    for farthest in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(flat.projection(1.0, farthest).as_mat4().is_finite(), "{farthest}");
     }
 }
 
-/// Reversed: 1 on the near plane, 0 on the far one.
+fn orthographic(camera: OrbitCamera, height: f64) -> OrbitCamera {
+    OrbitCamera { orthographic_height: Some(height), ..camera }
+}
+
+/// Equal sizes at every distance, and neither a zoom nor a height that is none breaks it.
 #[test]
-fn depth_is_reversed() {
-    let projection = OrbitCamera::default().projection_between(1.0, 0.5, 8.0);
-    let depth = |projection: DMat4, distance: f64| projection.project_point3(DVec3::NEG_Z * distance).z;
-    assert_relative_eq!(depth(projection, 0.5), 1.0, epsilon = 1e-14);
-    assert_relative_eq!(depth(projection, 8.0), 0.0, epsilon = 1e-14);
-    let camera = looking(DVec3::Z * 1000.0, DVec3::ZERO);
-    assert_relative_eq!(depth(camera.projection(1.0), 1.0), 1.0, epsilon = 1e-12);
-    assert!(depth(camera.projection(1.0), 1e12) > 0.0);
+fn orthographic_views_keep_sizes() {
+    let camera = orthographic(looking(DVec3::Z * 9.0, DVec3::ZERO), 4.0);
+    for depth in [-50.0, 0.0, 8.0] {
+        assert_near!(
+            seen(&camera, 2.0, DVec3::new(4.0, 2.0, depth)).truncate().extend(0.0),
+            DVec3::new(1.0, 1.0, 0.0),
+            1e-12
+        );
+    }
+    let mut moved = camera;
+    moved.zoom(0.5);
+    assert_eq!((moved.eye, moved.orthographic_height), (camera.eye, Some(2.0)));
+    moved.pan(0.5, 0.0);
+    assert_near!(moved.target, DVec3::X, 1e-12);
+    moved.frame(Some(Aabb { min: DVec3::splat(-1.0), max: DVec3::ONE }), 0.5);
+    assert_relative_eq!(moved.orthographic_height.expect("stays"), 4.0 * 3.0f64.sqrt(), epsilon = 1e-12);
+    for height in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e300] {
+        let mut camera = orthographic(camera, height);
+        camera.zoom(1e-300);
+        assert_sound(&camera, 1.0);
+    }
+}
+
+/// What is at the target has the same size through either lens.
+#[test]
+fn a_lens_is_changed_without_changing_what_is_seen_at_the_target() {
+    let camera = looking(DVec3::new(3.0, 4.0, 5.0), DVec3::ONE);
+    let mut changed = camera;
+    changed.set_orthographic(true);
+    let beside = camera.target + camera.world_from_camera().x_axis.truncate() * 0.7;
+    let flat = |at: DVec3| at.truncate().extend(0.0);
+    assert_near!(flat(seen(&changed, 1.5, beside)), flat(seen(&camera, 1.5, beside)), 1e-12);
+    changed.set_orthographic(false);
+    assert_near!(changed.eye, camera.eye, 1e-12);
+    assert_eq!((changed.orthographic_height, changed.fov_y_degrees), (None, camera.fov_y_degrees));
+}
+
+/// A camera turned to the left sees what was to its left nearer to the middle of its upper edge.
+#[test]
+fn a_roll_turns_the_picture() {
+    let camera = OrbitCamera { roll_degrees: 90.0, ..looking(DVec3::Z * 5.0, DVec3::ZERO) };
+    let place = |point| seen(&camera, 1.0, point).truncate().extend(0.0);
+    assert!(place(DVec3::NEG_X).y > 0.1 && place(DVec3::Y).x > 0.1);
+    assert_sound(&camera, 1.0);
+    assert_sound(&OrbitCamera { roll_degrees: f64::NAN, ..camera }, 1.0);
 }
 
 #[test]
@@ -167,7 +220,7 @@ fn the_scale_factor_changes_nothing() {
         let (width_px, height_px) = (1280.0 * scale_factor, 800.0 * scale_factor);
         let mut camera = OrbitCamera::default();
         camera.pan(30.0 * scale_factor / height_px, 70.0 * scale_factor / height_px);
-        (camera, camera.projection(width_px / height_px))
+        (camera, camera.projection(width_px / height_px, FARTHEST))
     };
     assert_eq!(dragged(1.0), dragged(2.0));
     assert!(dragged(0.0).1.is_finite());
@@ -189,26 +242,63 @@ fn camera_scene(trs: Trs, projection: Projection) -> Scene {
     scene
 }
 
+fn taken(scene: &Scene, camera: usize, aspect: f64) -> Option<OrbitCamera> {
+    scene.camera_at(camera, &scene.pose(None, 0.0), aspect)
+}
+
 #[test]
 fn cameras_of_the_file_can_be_taken() {
-    let perspective = Projection::Perspective { fov_y_radians: 0.5, near: 0.1, far: None };
+    let perspective = Projection::Perspective { fov_y_radians: 0.5, aspect: None, near: 0.1, far: None };
     let placed = Trs {
         translation: DVec3::new(1.0, 2.0, 3.0),
         rotation: DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2),
         scale: DVec3::splat(0.01),
     };
-    let scene = camera_scene(placed, perspective);
-    let camera = camera_from_scene_camera(&scene, 0, &scene.pose(None, 0.0)).expect("a camera");
-    assert_eq!((camera.eye, camera.fov_y_degrees), (placed.translation, 0.5f64.to_degrees()));
+    let camera = taken(&camera_scene(placed, perspective), 0, 1.0).expect("a camera");
+    assert_eq!((camera.eye, camera.roll_degrees, camera.orthographic_height), (placed.translation, 0.0, None));
+    assert_relative_eq!(camera.fov_y_degrees, 0.5f64.to_degrees(), epsilon = 1e-12);
     assert_near!(camera.target, DVec3::new(0.0, 2.0, 3.0), 1e-14);
 
-    let scene =
-        camera_scene(placed, Projection::Orthographic { half_width: 3.0, half_height: 2.0, near: 0.0, far: 9.0 });
-    let camera = camera_from_scene_camera(&scene, 0, &scene.pose(None, 0.0)).expect("a camera");
+    let flat = Projection::Orthographic { half_width: 3.0, half_height: 2.0, near: 0.0, far: 9.0 };
+    let camera = taken(&camera_scene(placed, flat), 0, 1.5).expect("a camera");
+    assert_eq!((camera.eye, camera.orthographic_height), (placed.translation, Some(4.0)));
     let top = camera.target + camera.world_from_camera().y_axis.truncate() * 2.0;
     assert_relative_eq!(seen(&camera, 1.5, top).y, 1.0, epsilon = 1e-12);
 
     let flat = camera_scene(Trs { scale: DVec3::ZERO, ..placed }, perspective);
-    assert_eq!(camera_from_scene_camera(&flat, 0, &flat.pose(None, 0.0)), None);
-    assert_eq!(camera_from_scene_camera(&flat, 7, &flat.pose(None, 0.0)), None);
+    assert_eq!((taken(&flat, 0, 1.0), taken(&flat, 7, 1.0)), (None, None));
+}
+
+/// The node's own axes are those of the picture, whatever way it looks.
+#[test]
+fn a_camera_of_the_file_keeps_its_roll() {
+    let lens = Projection::Perspective { fov_y_radians: 0.5, aspect: None, near: 0.1, far: None };
+    for (turn, roll) in [(0.0, 30.0), (100.0, -75.0), (-20.0, 180.0), (10.0, 0.0)] {
+        let (turn, pitch) = (f64::to_radians(turn), DQuat::from_rotation_x(-0.4));
+        let rotation = DQuat::from_rotation_y(turn) * pitch * DQuat::from_rotation_z(f64::to_radians(roll));
+        let camera = taken(&camera_scene(Trs { rotation, ..Trs::default() }, lens), 0, 1.0).expect("a camera");
+        let axes = camera.world_from_camera();
+        assert_near!(axes.x_axis.truncate(), rotation * DVec3::X, 1e-6);
+        assert_near!(axes.y_axis.truncate(), rotation * DVec3::Y, 1e-6);
+    }
+}
+
+/// A picture of another aspect shows all that the camera's own shows, and no less.
+#[test]
+fn a_camera_of_the_file_shows_all_of_its_own_picture() {
+    let lenses = [
+        Projection::Perspective { fov_y_radians: 0.9, aspect: Some(2.0), near: 0.1, far: None },
+        Projection::Orthographic { half_width: 3.0, half_height: 1.5, near: 0.0, far: 9.0 },
+    ];
+    for lens in lenses {
+        let scene = camera_scene(Trs::default(), lens);
+        let half = |aspect| taken(&scene, 0, aspect).expect("a camera").half_extents(aspect);
+        let own = half(2.0);
+        for aspect in [0.5, 1.0, 1.9] {
+            assert_relative_eq!(half(aspect).x, own.x, epsilon = 1e-12);
+        }
+        for aspect in [2.1, 4.0] {
+            assert_relative_eq!(half(aspect).y, own.y, epsilon = 1e-12);
+        }
+    }
 }

@@ -43,7 +43,7 @@ fn settings(traveller: DVec3, filter: Filter) -> Settings {
     settings.method.look.surface = SurfaceView::Diffuse;
     settings.method.look.exposure_stops = Some(0.0);
     let target = traveller + DVec3::Y * 0.4;
-    settings.shot.camera = Some(OrbitCamera { eye: target + DVec3::new(1.2, 1.6, 1.4), target, fov_y_degrees: 50.0 });
+    settings.shot.camera = Some(OrbitCamera::new(target + DVec3::new(1.2, 1.6, 1.4), target, 50.0));
     settings.method.cone_tracing.half_resolution = false;
     settings.method.cone_tracing.pattern_px = 1;
     settings.method.cone_tracing.cones = 16;

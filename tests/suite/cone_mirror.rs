@@ -16,7 +16,7 @@ fn mirror(point: DVec3, mirrored: DVec3, roughness: f64) -> Photo {
     let grid = grid(DEPTH);
     let world = |cells: DVec3| grid.corner() + cells * grid.span;
     let eye = world(point + 30.0 * DVec3::new(-mirrored.x, -mirrored.y, mirrored.z));
-    let camera = OrbitCamera { eye, target: world(point), fov_y_degrees: 0.001 };
+    let camera = OrbitCamera::new(eye, world(point), 0.001);
     Photo::new(gpu(), (&grid, &camera), [SPOT_PX; 2], |_, ray| {
         plane_distance(ray, point, DVec3::Z)
             .map_or(NOTHING, |distance| SurfaceTexel { roughness, ..dull(distance, DVec3::Z) })

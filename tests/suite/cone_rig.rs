@@ -51,7 +51,7 @@ pub const SPOT_PX: u32 = 4;
 pub fn spot(gpu: &Gpu, grid: &Grid, point: DVec3, face: DVec3) -> Photo {
     // Aside of the face, whichever axis is up.
     let eye = world(grid, point + 20.0 * (face + DVec3::new(0.02, 0.03, 0.025)).normalize());
-    let camera = OrbitCamera { eye, target: world(grid, point), fov_y_degrees: 0.001 };
+    let camera = OrbitCamera::new(eye, world(grid, point), 0.001);
     Photo::new(gpu, (grid, &camera), [SPOT_PX; 2], |_, ray| {
         plane_distance(ray, point, face).map_or(NOTHING, |distance| dull(distance, face))
     })

@@ -26,7 +26,7 @@ const SIZE_PX: [u32; 2] = [96, 64];
 
 /// Into a grid of 32 cells.
 fn camera() -> OrbitCamera {
-    OrbitCamera { eye: DVec3::new(16.0, 26.0, 40.0), target: DVec3::new(16.0, 4.0, 16.0), fov_y_degrees: 50.0 }
+    OrbitCamera::new(DVec3::new(16.0, 26.0, 40.0), DVec3::new(16.0, 4.0, 16.0), 50.0)
 }
 
 pub fn shot(scene: &Scene) -> Shot<'_> {
@@ -135,11 +135,7 @@ pub fn white() -> Material {
 #[test]
 fn irradiance_on_a_white_plane_that_faces_it_leaves_as_itself_over_pi() {
     let scene = floor(white());
-    let above = OrbitCamera {
-        eye: DVec3::new(16.0, 30.0, 16.0),
-        target: DVec3::new(16.0, 2.0, 16.0 - 1e-6),
-        fov_y_degrees: 1.0,
-    };
+    let above = OrbitCamera::new(DVec3::new(16.0, 30.0, 16.0), DVec3::new(16.0, 2.0, 16.0 - 1e-6), 1.0);
     let shot = Shot::new(&scene, above, grid(5), [3, 3]);
     let surfaces = shot.drawn();
     let expected = (0.96 + 0.04 / 4.0) / PI;

@@ -43,7 +43,7 @@ fn settings() -> Settings {
     let mut settings = Settings::default();
     settings.method.discretization.grid = 64;
     let eye = DVec3::new(1.0, 2.0, 5.0);
-    settings.shot.camera = Some(OrbitCamera { eye, target: DVec3::ZERO, fov_y_degrees: 45.0 });
+    settings.shot.camera = Some(OrbitCamera::new(eye, DVec3::ZERO, 45.0));
     settings
 }
 

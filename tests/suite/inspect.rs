@@ -138,11 +138,7 @@ fn a_pixel_shows_the_node_its_ray_meets() {
     for level in [None, Some(4)] {
         let mut settings = settings();
         settings.method.look.level = level;
-        let camera = octolume::scene::OrbitCamera {
-            eye: DVec3::new(9.0, 7.0, 12.0),
-            target: DVec3::new(0.0, 2.0, 0.0),
-            fov_y_degrees: 60.0,
-        };
+        let camera = octolume::scene::OrbitCamera::new(DVec3::new(9.0, 7.0, 12.0), DVec3::new(0.0, 2.0, 0.0), 60.0);
         settings.shot.camera = Some(camera);
         let engine = engine(&settings);
         let grid = engine.prepared().expect("a scene").grid;

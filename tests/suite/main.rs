@@ -104,6 +104,7 @@ mod scenes;
 mod shaders;
 mod shadow_maps;
 mod shadow_truth;
+mod sides;
 mod skin_rig;
 mod skinning;
 mod skins_hard;

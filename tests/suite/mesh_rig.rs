@@ -23,8 +23,11 @@ pub fn grid() -> Grid {
     Grid { anchor: DVec3::ZERO, offset_cells: IVec3::splat(-8), span: 0.125, depth: 4 }
 }
 
+/// No scene reaches farther, scene units.
+pub const FARTHEST: f64 = 1e3;
+
 pub fn camera() -> OrbitCamera {
-    OrbitCamera { eye: DVec3::new(0.4, 0.7, 3.0), target: DVec3::ZERO, fov_y_degrees: 40.0 }
+    OrbitCamera::new(DVec3::new(0.4, 0.7, 3.0), DVec3::ZERO, 40.0)
 }
 
 pub fn node(name: &str, translation: DVec3) -> Node {
@@ -90,7 +93,7 @@ pub fn recorded(gpu: &Gpu, scene: &Scene, look: &Look) -> (Recorder, Picture) {
     let camera_from_world = projection::camera_from_world(&camera, &grid);
     let posed = PosedMesh::new(gpu, &mesh, &mut Slot::default(), of_pose, &camera_from_world).expect("fits");
     let mut recorder = Recorder::default();
-    let seen = MeshView { camera: &camera, grid: &grid, look };
+    let seen = MeshView { camera: &camera, grid: &grid, farthest: FARTHEST, look };
     mesh::record(gpu, &mut recorder, &posed, seen, MeshTarget { picture: &picture, depth: &depth });
     (recorder, picture)
 }

@@ -168,7 +168,7 @@ fn cameras_and_lights_are_read() {
     let fov_y_radians = f64::from(0.5f32);
     assert_eq!(
         scene.cameras[0].projection,
-        Projection::Perspective { fov_y_radians, near: f64::from(0.1f32), far: None }
+        Projection::Perspective { fov_y_radians, aspect: None, near: f64::from(0.1f32), far: None }
     );
     let spot = LightKind::Spot { range: Some(7.0), inner_cone_radians: 0.0, outer_cone_radians: 0.5 };
     assert_eq!((scene.lights[0].kind, scene.lights[1].kind), (LightKind::Directional, spot));

@@ -3,14 +3,15 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use octolume::accuracy::path_tracer::{Film, Reflection, Term, TracedScene};
+use octolume::accuracy::path_tracer::{Film, Options, PixelSampling, Reflection, Term, TracedScene};
 use octolume::progress::Progress;
-use octolume::scene::{LightKind, Scene};
+use octolume::scene::{AlphaMode, LightKind, Material, Scene};
 use octolume::settings::Settings;
 use octolume::settings::lighting::{AddedLight, LightEdit, SunShines};
 
 use crate::path_tracer_rig::{
-    assert_mean, floor, glowing, looking, material, mean, of_panels, options, panel, prepared, room, traced, under_sky,
+    assert_mean, floor, glowing, looking, material, mean, of_panels, options, panel, prepared, room, traced,
+    traced_with, under_sky,
 };
 
 fn furnace(albedo: f32) -> (Scene, Settings) {
@@ -153,6 +154,27 @@ fn what_lies_between_hides_lights() {
     for (height, is_lit) in [(2.9, true), (4.0, false)] {
         let settings = lit_by(light(LightKind::POINT, 1.0), [0.0, height, 0.0], [0.0, -1.0, 0.0]);
         assert_eq!(mean(&traced(scene.clone(), &settings, 1), Term::Direct) > 0.0, is_lit, "{height}");
+    }
+}
+
+/// Pixels see the floor through a pane that is half there, exactly through the edge between its two triangles.
+#[test]
+fn a_blended_pane_is_there_once_on_the_edge_its_triangles_share() {
+    let pane = Material { alpha_mode: AlphaMode::Blend, base_color: [0.0, 0.0, 0.0, 0.5], ..material(0.0) };
+    let over = panel(DVec3::Y, DVec3::X * 2.0, DVec3::NEG_Z * 2.0, 1);
+    let scene = of_panels(vec![floor(8.0, 0), over], vec![material(1.0), pane]);
+    let sun = lit_by(light(LightKind::Directional, PI), [0.0; 3], [0.0, -1.0, 0.0]);
+    for aside in [0.0, 0.3] {
+        let place = DVec3::new(aside, 0.0, 0.0);
+        let mut settings = sun.clone();
+        settings.shot.camera = looking(place + DVec3::new(0.0, 3.0, 1e-7), place).shot.camera;
+        let options = Options { pixel: PixelSampling::Centre, ..options(Reflection::Lambert) };
+        let film = traced_with(scene.clone(), &settings, Options { size_px: [33, 33], ..options }, 400);
+        // Half of the rays reach the floor, and half of those that go on to the sun.
+        let shown = film.image(Term::Direct);
+        for (index, pixel) in shown.iter().enumerate() {
+            assert!((pixel[0] - 0.25).abs() < 0.11, "pixel {index} {aside}: {}", pixel[0]);
+        }
     }
 }
 

@@ -88,7 +88,7 @@ fn facing_light_and_eye_the_brdf_has_a_closed_form() {
 #[test]
 fn a_mirror_shows_a_lit_wall() {
     // Seen at 45°, the wall behind the floor's middle is where the mirror looks, far beyond the lobe.
-    let wall = panel(DVec3::new(-4.0, 0.0, 0.0), DVec3::Z * 8.0, DVec3::Y * 8.0, 1);
+    let wall = panel(DVec3::new(-4.0, 0.0, 0.0), DVec3::NEG_Z * 8.0, DVec3::Y * 8.0, 1);
     let scene = of_panels(vec![floor(8.0, 0), wall], vec![glossy(1.0, 1.0, 0.0), glowing(0.0, 7.0)]);
     let film = traced_with(scene, &seen_at(0.5_f64.sqrt()), options(Reflection::MetallicRoughness), 64);
     assert_mean(&film, Term::SpecularFirst, 7.0 * white_metal_albedo(0.045, 0.5_f64.sqrt()), 0.001);
@@ -97,7 +97,7 @@ fn a_mirror_shows_a_lit_wall() {
 
 #[test]
 fn a_mirror_shows_light_that_a_wall_reflects_as_its_first_bounce() {
-    let wall = panel(DVec3::new(-4.0, 0.0, 0.0), DVec3::Z * 8.0, DVec3::Y * 8.0, 1);
+    let wall = panel(DVec3::new(-4.0, 0.0, 0.0), DVec3::NEG_Z * 8.0, DVec3::Y * 8.0, 1);
     let scene = of_panels(vec![floor(8.0, 0), wall], vec![glossy(1.0, 1.0, 0.0), glossy(0.5, 0.0, 1.0)]);
     let mut settings = seen_at(0.5_f64.sqrt());
     settings.method.lighting.sun.shines = SunShines::Always;

@@ -59,7 +59,7 @@ pub fn looking(eye: DVec3, target: DVec3) -> Settings {
     let mut settings = Settings::default();
     settings.method.discretization.grid = 64;
     settings.method.lighting.sun.shines = SunShines::Never;
-    settings.shot.camera = Some(OrbitCamera { eye, target, fov_y_degrees: 1.0 });
+    settings.shot.camera = Some(OrbitCamera::new(eye, target, 1.0));
     settings
 }
 

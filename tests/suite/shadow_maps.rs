@@ -33,7 +33,7 @@ const MIDDLE: DVec3 = DVec3::new(16.0, HEIGHT, 16.0);
 const HALF: f64 = 4.0;
 
 /// A level square over the middle of a floor of 32 x 32 cells.
-fn occluder(material: Material) -> Scene {
+pub fn occluder(material: Material) -> Scene {
     let mut scene = one_square(material);
     let rotation = DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2);
     let placed = Trs { translation: MIDDLE, rotation, scale: DVec3::splat(HALF) };
@@ -50,7 +50,7 @@ fn bounds() -> Option<Aabb> {
     Some(Aabb { min: DVec3::ZERO, max: DVec3::new(32.0, HEIGHT, 32.0) })
 }
 
-fn mapped(gpu: &Gpu, scene: &Scene, lit: &PosedLight) -> ShadowMap {
+pub fn mapped(gpu: &Gpu, scene: &Scene, lit: &PosedLight) -> ShadowMap {
     let objects = (0..).zip(scene.objects()).collect();
     let mut mesh = MeshScene::new(Arc::new(scene.clone()), objects, record_levels);
     while !mesh.upload(gpu, (&Hidden::default(), Textures::BaseColor), Duration::ZERO).expect("fits") {}
@@ -178,7 +178,7 @@ fn hidden_objects_cast_nothing_and_broken_matrices_are_left_out() {
 }
 
 /// How often each distance occurs.
-fn read_map(map: &ShadowMap) -> BTreeMap<u32, usize> {
+pub fn read_map(map: &ShadowMap) -> BTreeMap<u32, usize> {
     let bytes = gpu().read_texture(&map.texture).expect("readable");
     let mut counts = BTreeMap::new();
     for texel in bytemuck::pod_collect_to_vec::<u8, u32>(&bytes) {

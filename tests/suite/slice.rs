@@ -153,11 +153,11 @@ fn every_look_up_draws_the_same_picture() {
 #[test]
 fn a_plane_seen_edge_on_or_from_behind_is_background() {
     let octree = octree();
-    let inside = OrbitCamera {
-        eye: grid(DEPTH).corner() + DVec3::new(3.0, 6.0, 5.0),
-        target: grid(DEPTH).corner() + DVec3::new(3.0, 7.0, 5.0),
-        fov_y_degrees: 50.0,
-    };
+    let inside = OrbitCamera::new(
+        grid(DEPTH).corner() + DVec3::new(3.0, 6.0, 5.0),
+        grid(DEPTH).corner() + DVec3::new(3.0, 7.0, 5.0),
+        50.0,
+    );
     let rays = PixelRays::new(&inside, &grid(DEPTH), SIZE_PX);
     let behind = Slice { height: 0.25, value: SliceValue::Occupancy, ..Slice::default() };
     assert!(drawn(&octree, &behind, Some([0.0, 1.0]), &rays).distances.iter().all(|distance| *distance == NO_DEPTH));

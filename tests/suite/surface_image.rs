@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::{Affine2, DQuat, DVec3, Vec2, Vec4};
+use glam::{Affine2, DVec3, Vec2, Vec4};
 use octolume::color::linear_from_gamma;
 use octolume::data::surface_image::SurfaceTexel;
 use octolume::gpu::{Gpu, Job};
-use octolume::scene::{AlphaMode, LocalTransform, Material, Node, Scene, Texture, TextureRef, Trs, Wrap};
+use octolume::scene::{AlphaMode, Material, Node, OrbitCamera, Scene, Texture, TextureRef, Wrap};
 
 use crate::device::open;
 use crate::mesh_rig::{self, SIZE_PX, meets, node, one_square, pixels, scene, skinned_square, square};
@@ -56,23 +56,32 @@ fn a_texel_is_where_its_ray_meets_the_surface() {
     assert!(there > 200, "{there} pixels");
 }
 
+/// Parallel rays: distances count from the eye's plane, and what is seen faces along the line of sight.
 #[test]
-fn both_sides_face_the_eye_mirrored_or_not() {
-    for double_sided in [false, true] {
-        for (turn, scale) in [(0.0, 1.0), (180.0, 1.0), (0.0, -1.0), (180.0, -1.0)] {
-            let mut scene = one_square(Material { double_sided, ..Material::default() });
-            scene.nodes[0].local = LocalTransform::Trs(Trs {
-                rotation: DQuat::from_rotation_y(f64::to_radians(turn)),
-                scale: DVec3::new(scale, 1.0, 1.0),
-                ..Trs::default()
-            });
-            let texels = drawn(&scene);
-            for (place, texel) in inside(&texels) {
-                assert!(texel.face.distance(DVec3::Z) < 1e-4, "{} turned {turn}, {scale}, at {place}", texel.face);
-                assert!(texel.normal.distance(DVec3::Z) < 1e-4, "{} turned {turn}, {scale}, at {place}", texel.normal);
-            }
+fn an_orthographic_texel_is_where_its_ray_meets_the_surface() {
+    let camera = OrbitCamera { orthographic_height: Some(3.0), roll_degrees: 20.0, ..mesh_rig::camera() };
+    let scene = one_square(Material::default());
+    let shot = Shot::new(&scene, camera, mesh_rig::grid(), SIZE_PX);
+    let (texels, rays) = (shot.drawn().texels, shot.rays());
+    let grid = mesh_rig::grid();
+    let plane = grid.grid_from_world().transform_point3(DVec3::ZERO).z;
+    let mut there = 0;
+    for (index, point) in pixels() {
+        let ray = rays.ray(point);
+        let t = (plane - ray.origin.z) / ray.direction.z;
+        let place = grid.grid_from_world().inverse().transform_point3(ray.origin + ray.direction * t);
+        let from_border = 1.0 - place.truncate().abs().max_element();
+        if from_border.abs() < 1e-4 {
+            continue;
+        }
+        assert_eq!(is_there(&texels[index]), from_border > 0.0, "{place}");
+        if from_border > 0.0 {
+            there += 1;
+            let error = f64::from(texels[index].distance_cells) / (ray.start_cells + t) - 1.0;
+            assert!(error.abs() < 1e-5, "{place}: off by {error}");
         }
     }
+    assert!(there > 200, "{there} pixels");
 }
 
 #[test]

@@ -23,6 +23,7 @@ use octolume::stages::surface::{Lit, direct, direct_march, emission};
 use octolume::stages::textures::halve::record_levels;
 
 use crate::device::gpu;
+use crate::mesh_rig::FARTHEST;
 use crate::stage_rig::{buffer, read, run};
 
 /// What a test looks at.
@@ -80,7 +81,7 @@ impl<'a> Shot<'a> {
         let of_pose = (&self.pose, &Hidden::default());
         let posed = PosedMesh::new(gpu, &mesh, &mut Slot::default(), of_pose, &camera_from_world).expect("fits");
         let mut frame = Recorder::default();
-        let seen = Viewpoint { camera: &self.camera, grid: &self.grid, emission: self.emission };
+        let seen = Viewpoint { camera: &self.camera, grid: &self.grid, farthest: FARTHEST, emission: self.emission };
         draw::record(gpu, &mut frame, &posed, seen, (&image, &depth));
         (frame, image)
     }

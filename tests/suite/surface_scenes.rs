@@ -45,7 +45,7 @@ impl RealScene {
         let scene = scene::load::open(&folder()?.join(self.file), &Progress::default()).expect("a scene");
         let mut settings = Settings::default();
         settings.method.discretization.grid = 64;
-        settings.shot.camera = self.from.map(|[eye, target]| OrbitCamera { eye, target, fov_y_degrees: 60.0 });
+        settings.shot.camera = self.from.map(|[eye, target]| OrbitCamera::new(eye, target, 60.0));
         let prepared = prepare(Arc::new(scene), &settings.method.discretization, None, &Progress::default());
         Some((prepared.expect("fits"), settings))
     }

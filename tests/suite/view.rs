@@ -58,11 +58,11 @@ fn edges_and_shading_match_the_reference() {
 fn an_eye_inside_the_grid_matches_the_reference() {
     let plain = random_octree(4, 2, 4, 5);
     let grid = grid(4);
-    let inside = OrbitCamera {
-        eye: grid.corner() + DVec3::new(7.3, 8.6, 6.1) * grid.span,
-        target: grid.corner() + DVec3::new(14.0, 3.0, 2.0) * grid.span,
-        fov_y_degrees: 90.0,
-    };
+    let inside = OrbitCamera::new(
+        grid.corner() + DVec3::new(7.3, 8.6, 6.1) * grid.span,
+        grid.corner() + DVec3::new(14.0, 3.0, 2.0) * grid.span,
+        90.0,
+    );
     assert_octree_matches(gpu(), &plain, &look(ColorBy::Albedo, AlphaRule::Length), &inside);
 }
 

@@ -33,7 +33,7 @@ pub fn grid(depth: u32) -> Grid {
 pub fn camera(grid: &Grid, direction: DVec3, distance: f64) -> OrbitCamera {
     let size = grid.span * f64::from(grid.cells());
     let target = grid.corner() + DVec3::splat(size / 2.0);
-    OrbitCamera { eye: target + direction.normalize() * distance * size, target, fov_y_degrees: 40.0 }
+    OrbitCamera::new(target + direction.normalize() * distance * size, target, 40.0)
 }
 
 pub fn look(color: ColorBy, alpha: AlphaRule) -> Look {

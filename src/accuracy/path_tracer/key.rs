@@ -15,7 +15,7 @@ use crate::prepare::kept::ContentWriter;
 use crate::scene::{AlphaMode, LightKind, Material, Primitive};
 
 /// Goes up with every change of what a path brings.
-const ALGORITHM_VERSION: u64 = 1;
+const ALGORITHM_VERSION: u64 = 2;
 
 impl TracedScene<'_> {
     /// What a picture of it is kept by on disk.
@@ -35,10 +35,11 @@ impl TracedScene<'_> {
         writer.number(ALGORITHM_VERSION);
         let posed = triangles.tree().triangles();
         writer.number(posed.len() as u64);
-        for PosedTriangle { corners, vertices, surface } in posed {
+        for PosedTriangle { corners, vertices, surface, sides } in posed {
             writer.list(corners);
             writer.list(vertices);
             writer.number(u64::from(*surface));
+            writer.number(*sides as u64);
         }
         writer.number(readers.len() as u64);
         for (reader, surface) in readers.iter().zip(triangles.surfaces()) {
@@ -48,9 +49,10 @@ impl TracedScene<'_> {
         punctual.iter().for_each(|light| write_light(&mut writer, light));
         writer.list(&sky_nits.to_array());
         writer.list(&[*occlusion_cells]);
-        let CameraRays { eye, forward, right, up, near_cells, size_px: _ } = rays;
+        let CameraRays { eye, forward, right, up, is_orthographic, near_cells, size_px: _ } = rays;
         [eye, forward, right, up].into_iter().for_each(|vector| writer.list(&vector.to_array()));
         writer.list(&[*near_cells]);
+        writer.number(u64::from(*is_orthographic));
         write_options(&mut writer, options);
         writer.finish()
     }
@@ -90,7 +92,7 @@ fn write_material(writer: &mut ContentWriter, material: &Material) {
         emissive,
         emissive_texture,
         alpha_mode,
-        double_sided: _, // both sides are shaded
+        double_sided: _, // its triangles tell
         unlit,
     } = material;
     writer.list(base_color);

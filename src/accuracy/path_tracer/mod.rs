@@ -21,7 +21,6 @@ mod path;
 mod sampler;
 mod surface;
 
-use std::sync::LazyLock;
 use std::time::Instant;
 
 use glam::DVec3;
@@ -35,7 +34,7 @@ use crate::lights::posed_lights;
 use crate::prepare::kept::TextureHashes;
 use crate::prepare::{LightsError, Prepared};
 use crate::progress::{Cancelled, Progress};
-use crate::scene::{Material, Pose};
+use crate::scene::Pose;
 use crate::settings::Settings;
 use camera::CameraRays;
 use lights::{Emitters, Punctual};
@@ -139,12 +138,11 @@ fn readers<'a>(
     pose: &Pose,
     (emission, reflection): (f64, Reflection),
 ) -> Vec<SurfaceReader<'a>> {
-    static DEFAULT: LazyLock<Material> = LazyLock::new(Material::default);
     let scene = &prepared.scene;
     let reader = |surface: &PosedSurface| {
         let object = &prepared.objects[surface.object].object;
         let primitive = &scene.meshes[object.mesh].primitives[surface.primitive];
-        let material = primitive.material.and_then(|material| scene.materials.get(material)).unwrap_or(&DEFAULT);
+        let material = scene.material_of(primitive);
         let is_bumpy = material.normal_texture.is_some();
         SurfaceReader {
             primitive,

@@ -57,7 +57,8 @@ impl TracedScene<'_> {
     /// What of `segment` is met first.
     fn meet(&self, segment: Segment, coin: u64) -> Option<Surface> {
         let tree = self.triangles.tree();
-        let met = tree.nearest(segment, |triangle, place| self.is_there(triangle, place, coin))?;
+        let seen = |triangle, place| self.is_there((triangle, place), segment.direction, coin);
+        let met = tree.nearest(segment, seen)?;
         let triangle = &tree.triangles()[met.triangle];
         let surface = triangle.surface as usize;
         let (reader, normals) = (&self.readers[surface], &self.triangles.surfaces()[surface].normals);
@@ -65,15 +66,25 @@ impl TracedScene<'_> {
         reader.read(&shape, met.place, (segment.direction, met.distance))
     }
 
-    fn is_there(&self, number: usize, place: DVec3, coin: u64) -> bool {
+    /// For who looks along a direction.
+    fn is_there(&self, (number, place): (usize, DVec3), direction: DVec3, coin: u64) -> bool {
         let triangle = &self.triangles.tree().triangles()[number];
         let reader = &self.readers[triangle.surface as usize];
-        reader.is_opaque() || is_heads(coin, number, reader.presence(triangle.vertices, place))
+        let presence = || reader.presence(triangle.vertices, place);
+        triangle.is_there_along(direction)
+            && (reader.is_opaque() || is_heads(coin, triangle.decider(number, place), presence()))
     }
 
-    fn is_visible(&self, from: &Surface, direction: DVec3, length: f64, coin: u64) -> bool {
+    /// `looked`: along which sides are looked at.
+    fn is_open(&self, from: &Surface, (direction, length): (DVec3, f64), looked: DVec3, coin: u64) -> bool {
         let segment = Segment { from: from.point.start(direction), direction, length };
-        !self.triangles.tree().meets_any(segment, |triangle, place| self.is_there(triangle, place, coin))
+        let tree = self.triangles.tree();
+        !tree.meets_any(segment, |triangle, place| self.is_there((triangle, place), looked, coin))
+    }
+
+    /// A punctual light sees as shadow maps do: what turns its single side away from it hides nothing.
+    fn reaches(&self, at: &Surface, light: &Arrival, coin: u64) -> bool {
+        self.is_open(at, (light.direction, light.distance), -light.direction, coin)
     }
 
     /// What a light brings to the eye, were nothing between.
@@ -91,8 +102,7 @@ impl TracedScene<'_> {
         arrivals
             .map(|arrival| {
                 let brought = self.unshadowed(at, &arrival);
-                let is_lit = brought.max_element() > 0.0
-                    && self.is_visible(at, arrival.direction, arrival.distance, sampler.coin());
+                let is_lit = brought.max_element() > 0.0 && self.reaches(at, &arrival, sampler.coin());
                 if is_lit { brought } else { DVec3::ZERO }
             })
             .sum()
@@ -119,9 +129,7 @@ impl TracedScene<'_> {
             }
         }
         match chosen {
-            Some((arrival, brought, amount)) if self.is_visible(at, arrival.direction, arrival.distance, coin) => {
-                brought * (total / amount)
-            }
+            Some((arrival, brought, amount)) if self.reaches(at, &arrival, coin) => brought * (total / amount),
             _ => DVec3::ZERO,
         }
     }
@@ -139,12 +147,15 @@ impl TracedScene<'_> {
             return None;
         }
         let triangle = &tree.triangles()[point.triangle];
+        if !triangle.is_there_along(direction) {
+            return None;
+        }
         let reader = &self.readers[triangle.surface as usize];
         let share = reader.presence(triangle.vertices, point.place);
         let nits = reader.emission(triangle.vertices, point.place) * share;
         // Ends above the emitter, as rays start above what they leave.
         let length = distance - 2.0 * START_OFFSET_CELLS / cosine.abs();
-        let is_seen = nits.max_element() > 0.0 && self.is_visible(at, direction, length, coin);
+        let is_seen = nits.max_element() > 0.0 && self.is_open(at, (direction, length), direction, coin);
         is_seen.then(|| (direction, nits, solid(point.density, distance, cosine)))
     }
 

@@ -36,9 +36,9 @@ impl Sampler {
     }
 }
 
-/// Of a surface that is there by `chance`; the same whenever a ray asks again.
-pub fn is_heads(coin: u64, triangle: usize, chance: f64) -> bool {
-    ((mix(coin ^ (triangle as u64) << 32) >> 11) as f64 / (1_u64 << 53) as f64) < chance
+/// Of a surface that is there by `chance`; the same whenever a ray asks again. `decider`: of the place on it.
+pub fn is_heads(coin: u64, decider: u64, chance: f64) -> bool {
+    ((mix(coin ^ decider << 32 ^ decider >> 32) >> 11) as f64 / (1_u64 << 53) as f64) < chance
 }
 
 /// SplitMix64's finalizer.

@@ -1,6 +1,6 @@
 //! What a material shows at a place of a triangle: glTF's metallic-roughness at the textures' finest level.
 //!
-//! Both sides of every surface are shaded, double-sided or not: normals are turned to the eye, and bent to
+//! Normals of what is met are turned to the eye, and bent to
 //! it until [`LEAST_FACING`] where interpolation or a normal map turns them away.
 
 use glam::{DVec2, DVec3};

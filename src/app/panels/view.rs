@@ -2,9 +2,9 @@
 
 use egui::{Slider, Ui};
 
-use super::{choice, control, list, slice, slider, surfaces};
+use super::{choice, control, list, number, slice, slider, surfaces, switch};
 use crate::app::command::Command;
-use crate::scene::SceneCamera;
+use crate::scene::{OrbitCamera, SceneCamera};
 use crate::settings::{AlphaRule, ColorBy, Look, View};
 
 /// What there is to look at.
@@ -13,14 +13,24 @@ pub struct ViewPanel<'a> {
     pub look: &'a Look,
     /// The octree's, so that the level slider ends at its leaves.
     pub depth: u32,
-    /// The camera is set; otherwise it frames everything.
-    pub is_camera_free: bool,
+    pub camera: CameraChoice<'a>,
+    /// What that sees now.
+    pub seen: OrbitCamera,
     /// Those of the file.
     pub cameras: &'a [SceneCamera],
     /// Names of those that have a shadow map, in the shadow map view.
     pub lights: &'a [String],
     /// What light was multiplied by in the last picture.
     pub exposure: f64,
+}
+
+/// Where the picture is taken from.
+#[derive(Clone, Copy, PartialEq)]
+pub enum CameraChoice<'a> {
+    Framed,
+    /// Set by hand.
+    Free,
+    OfFile(&'a str),
 }
 
 pub fn ui(ui: &mut Ui, panel: ViewPanel<'_>) -> Vec<Command> {
@@ -41,7 +51,8 @@ pub fn ui(ui: &mut Ui, panel: ViewPanel<'_>) -> Vec<Command> {
     if is_exposed {
         exposure_ui(ui, &mut look, panel.exposure);
     }
-    commands.extend(camera_ui(ui, panel.is_camera_free, panel.cameras));
+    commands.extend(camera_ui(ui, panel.camera, panel.cameras));
+    commands.extend(lens_ui(ui, panel.seen));
     if look != *panel.look {
         commands.push(Command::Look(look));
     }
@@ -117,17 +128,25 @@ fn shadow_map_ui(ui: &mut Ui, look: &mut Look, lights: &[String]) {
     });
 }
 
-fn camera_ui(ui: &mut Ui, is_free: bool, cameras: &[SceneCamera]) -> Option<Command> {
+fn camera_ui(ui: &mut Ui, chosen: CameraChoice, cameras: &[SceneCamera]) -> Option<Command> {
     let mut command = None;
-    let shown = if is_free { "Free" } else { "All framed" };
-    control(ui, "Camera", "Where the picture is taken from; drag in the view to move it.", |ui| {
-        let combo = egui::ComboBox::from_id_salt("camera").width(110.0).selected_text(shown);
+    let shown = match chosen {
+        CameraChoice::Framed => "All framed".to_owned(),
+        CameraChoice::Free => "Free".to_owned(),
+        CameraChoice::OfFile(name) => from(name),
+    };
+    let tip =
+        "Where the picture is taken from; drag in the view to move it. One of the file goes where the clip moves it.";
+    control(ui, "Camera", tip, |ui| {
+        let combo = egui::ComboBox::from_id_salt("camera").width(110.0).truncate().selected_text(shown);
         let response = combo.show_ui(ui, |ui| {
-            if ui.selectable_label(!is_free, "Frame all").on_hover_text("Key F").clicked() {
+            let is_framed = chosen == CameraChoice::Framed;
+            if ui.selectable_label(is_framed, "Frame all").on_hover_text("Double click in the view").clicked() {
                 command = Some(Command::FrameAll);
             }
             for (index, camera) in cameras.iter().enumerate() {
-                if ui.selectable_label(false, format!("From \"{}\"", camera.name)).clicked() {
+                let is_chosen = chosen == CameraChoice::OfFile(&camera.name);
+                if ui.selectable_label(is_chosen, from(&camera.name)).clicked() {
                     command = Some(Command::SceneCamera(index));
                 }
             }
@@ -135,6 +154,29 @@ fn camera_ui(ui: &mut Ui, is_free: bool, cameras: &[SceneCamera]) -> Option<Comm
         response.response
     });
     command
+}
+
+/// Perspective or not, and the roll.
+fn lens_ui(ui: &mut Ui, seen: OrbitCamera) -> Option<Command> {
+    let mut camera = seen;
+    let mut orthographic = seen.orthographic_height.is_some();
+    let tip = "How places become pixels. Costs nothing; orthographic shows equal sizes at every distance.";
+    control(ui, "Lens", tip, |ui| {
+        let lenses = [(false, "Perspective", tip), (true, "Ortho", tip)];
+        let row = ui.horizontal(|ui| {
+            if switch(ui, &mut orthographic, &lenses) {
+                camera.set_orthographic(orthographic);
+            }
+            let roll = number(&mut camera.roll_degrees, -180.0..=180.0).speed(0.5).max_decimals(1).suffix("°");
+            ui.add(roll).on_hover_text("Roll: turns the camera about its line of sight, to the left.");
+        });
+        row.response
+    });
+    (camera != seen).then_some(Command::Camera(camera))
+}
+
+fn from(name: &str) -> String {
+    format!("From \"{name}\"")
 }
 
 fn level_ui(ui: &mut Ui, look: &mut Look, depth: u32) {

@@ -8,13 +8,13 @@ use glam::DMat4;
 
 use super::DrawParams;
 use super::params::draw_params;
-use super::scene::{Batch, MeshScene, Place, material};
+use super::scene::{Batch, MeshScene, Place};
 use super::texture::MeshTexture;
 use crate::data::matrix::Matrix3x4;
 use crate::data::octree::Slot;
 use crate::data::texels::Texels;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, PassBuilder, RasterKernel};
-use crate::scene::{Material, Motion, Object, Pose, Primitive};
+use crate::scene::{Motion, Object, Pose, Primitive};
 use crate::settings::Hidden;
 
 /// What is uploaded of a scene, as a pose has it. Objects whose matrices are not finite are left out.
@@ -75,8 +75,7 @@ impl<'a> PosedMesh<'a> {
         place: &'b Place,
     ) -> Option<PosedDraw<'b>> {
         let mesh = self.mesh;
-        let default = Material::default();
-        let material = material(&mesh.scene, primitive).unwrap_or(&default);
+        let material = mesh.scene.material_of(primitive);
         let batch = mesh.batches.get(place.batch)?;
         // A skinned object's primitive without joints follows its node, as in voxelization.
         let is_skinned = matches!(object.motion, Motion::Skinned { .. }) && !primitive.joints.is_empty();

@@ -9,7 +9,7 @@ use super::texture::{self, MeshTexture, RecordLevels};
 use super::vertex::{mesh_vertex, vertex_joints};
 use crate::data::texels::Texels;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Job, JobState, Recorder};
-use crate::scene::{Material, Motion, Object, Primitive, Scene, TextureRef};
+use crate::scene::{Motion, Object, Scene, TextureRef};
 use crate::settings::Hidden;
 
 /// Vertices of a batch, unless one primitive has more: 24 MiB, uploaded in one go.
@@ -212,18 +212,13 @@ impl MeshScene {
     }
 }
 
-/// `None`: glTF's default material.
-pub(super) fn material<'a>(scene: &'a Scene, primitive: &Primitive) -> Option<&'a Material> {
-    primitive.material.and_then(|index| scene.materials.get(index))
-}
-
 fn read_textures<'a>(
     scene: &Scene,
     meshes: impl Iterator<Item = &'a usize>,
     textures: Textures,
 ) -> BTreeSet<(usize, Texels)> {
     let primitives = meshes.flat_map(|&mesh| &scene.meshes[mesh].primitives);
-    let slots = primitives.filter_map(|primitive| material(scene, primitive)).flat_map(|material| {
+    let slots = primitives.map(|primitive| scene.material_of(primitive)).flat_map(|material| {
         let all = [
             (material.base_color_texture, Texels::of_base_color(material)),
             (material.emissive_texture, Texels::Opaque),

@@ -73,7 +73,8 @@ impl Drawn {
             None => depth_buffer(gpu, shot.size_px)?,
         };
         let posed = parts.posed_mesh(making, &mut self.matrices, &camera_from_world(&shot.camera, grid))?;
-        let seen = MeshView { camera: &shot.camera, grid, look: &making.method.settings().method.look };
+        let farthest = shot.farthest(&making.request.prepared);
+        let seen = MeshView { camera: &shot.camera, grid, farthest, look: &making.method.settings().method.look };
         making.begin(frame, Pass::DrawMesh);
         mesh::record(gpu, frame, &posed, seen, MeshTarget { picture, depth: &depth });
         self.depth = Some(depth);

@@ -55,7 +55,9 @@ impl Made for Surfaces {
         let posed = parts.posed_mesh(making, &mut self.matrices, &camera_from_world(&shot.camera, grid))?;
         let emission = making.method.settings().method.lighting.emission;
         making.begin(frame, Pass::DrawSurfaces);
-        draw::record(gpu, frame, &posed, Viewpoint { camera: &shot.camera, grid, emission }, (&image, &depth));
+        let seen =
+            Viewpoint { camera: &shot.camera, grid, farthest: shot.farthest(&making.request.prepared), emission };
+        draw::record(gpu, frame, &posed, seen, (&image, &depth));
         self.image = Some((image, depth));
         Ok(None)
     }

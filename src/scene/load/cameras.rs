@@ -3,14 +3,15 @@
 use gltf::json::{self, Root, camera::Type as CameraType, validation::Checked};
 
 use super::file_object::FileObject;
+use super::unique_names::UniqueNames;
 use crate::scene::{Projection, SceneCamera, Warning};
 
 /// The cameras that make sense, and for each of the file where it went.
 pub(super) fn load(root: &Root, warnings: &mut Vec<Warning>) -> (Vec<SceneCamera>, Vec<Option<usize>>) {
-    let mut cameras = Vec::new();
+    let (mut cameras, mut names) = (Vec::new(), UniqueNames::default());
     let places = root.cameras.iter().enumerate().map(|(index, camera)| match projection(camera) {
         Some(projection) => {
-            let name = camera.name.clone().unwrap_or_else(|| format!("camera {index}"));
+            let name = names.of(camera.name.clone().unwrap_or_else(|| format!("camera {index}")));
             cameras.push(SceneCamera { name, projection });
             Some(cameras.len() - 1)
         }
@@ -34,7 +35,8 @@ fn projection(camera: &json::Camera) -> Option<Projection> {
                 None => None,
             };
             let fov_y_radians = positive(lens.yfov).filter(|&fov| fov < std::f64::consts::PI)?;
-            Some(Projection::Perspective { fov_y_radians, near: positive(lens.znear)?, far })
+            let aspect = lens.aspect_ratio.and_then(positive);
+            Some(Projection::Perspective { fov_y_radians, aspect, near: positive(lens.znear)?, far })
         }
         Checked::Valid(CameraType::Orthographic) => {
             let lens = camera.orthographic.as_ref()?;

@@ -36,11 +36,11 @@ mod source;
 mod spec_gloss;
 mod subjects;
 mod texture;
+mod unique_names;
 mod uri;
 mod usage_check;
 mod weights;
 
-use std::collections::HashSet;
 use std::path::Path;
 
 use gltf::json::Root;
@@ -55,6 +55,7 @@ use self::{
     shapes::Shapes,
     source::Source,
     texture::Textures,
+    unique_names::UniqueNames,
 };
 use super::{Clip, Node, Scene, Warning};
 use crate::digest::Digest;
@@ -175,20 +176,6 @@ fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<Warning>) 
         warnings.push(Warning::new(sentence));
     }
     Ok(shown)
-}
-
-/// Tells apart what has one name: the second is called `name (2)`.
-#[derive(Default)]
-struct UniqueNames(HashSet<String>);
-
-impl UniqueNames {
-    fn of(&mut self, name: String) -> String {
-        let numbered = (2..).map(|number| format!("{name} ({number})"));
-        let unique = std::iter::once(name.clone()).chain(numbered).find(|name| !self.0.contains(name));
-        let unique = unique.unwrap_or(name);
-        self.0.insert(unique.clone());
-        unique
-    }
 }
 
 fn read_clips(

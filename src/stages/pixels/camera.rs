@@ -38,18 +38,22 @@ pub struct PixelRay {
 
 impl PixelRays {
     pub fn new(camera: &OrbitCamera, grid: &Grid, size_px: [u32; 2]) -> Self {
-        let projection = camera.projection(f64::from(size_px[0]) / f64::from(size_px[1]));
+        let half = camera.half_extents(f64::from(size_px[0]) / f64::from(size_px[1]));
         let axes = camera.world_from_camera();
         let forward = -axes.z_axis.truncate();
         let eye = grid.grid_from_world().transform_point3(axes.w_axis.truncate());
         let center = DVec3::splat(f64::from(grid.cells()) / 2.0);
         let start_cells = ((center - eye).dot(forward) - center.length()).max(0.0);
-        let direction_x = axes.x_axis.truncate() / projection.x_axis.x;
-        let direction_y = axes.y_axis.truncate() / projection.y_axis.y;
+        let (across_x, across_y) = (axes.x_axis.truncate() * half.x, axes.y_axis.truncate() * half.y);
+        // Rays of an orthographic camera are parallel, those of another meet in the eye.
+        let (direction_x, direction_y, spread) = match camera.orthographic_height {
+            Some(_) => (DVec3::ZERO, DVec3::ZERO, 1.0 / grid.span),
+            None => (across_x, across_y, start_cells),
+        };
         Self {
             origin: eye + forward * start_cells,
-            origin_x: direction_x * start_cells,
-            origin_y: direction_y * start_cells,
+            origin_x: across_x * spread,
+            origin_y: across_y * spread,
             direction: forward,
             direction_x,
             direction_y,
@@ -83,9 +87,12 @@ impl PixelRays {
         if depth.is_nan() || depth < LEAST_DEPTH_CELLS {
             return None;
         }
-        let along = |axis: DVec3| from_eye.dot(axis) / (axis.length_squared() * depth);
+        // From the middle of the picture to its edges, at this depth.
+        let beyond = depth - self.start_cells;
+        let along = |axis: DVec3| from_eye.dot(axis) / axis.length_squared();
         let [width, height] = self.size_px.map(f64::from);
-        let (x, y) = (along(self.direction_x), along(self.direction_y));
+        let x = along(self.origin_x + self.direction_x * beyond);
+        let y = along(self.origin_y + self.direction_y * beyond);
         Some(([(x + 1.0) / 2.0 * width, (1.0 - y) / 2.0 * height], depth))
     }
 }
@@ -105,19 +112,25 @@ mod tests {
             (corner + DVec3::new(400.0, -300.0, 5.0), corner + 4.0),
             (corner + DVec3::new(1.0, 1e6, 1.0), corner),
         ] {
-            let camera = OrbitCamera { eye, target, fov_y_degrees: 40.0 };
-            let rays = PixelRays::new(&camera, &grid, [640, 360]);
-            for point_px in [[0.5, 0.5], [320.0, 180.0], [639.5, 17.25], [100.0, 359.0]] {
-                let ray = rays.ray(point_px);
-                for t in [0.5, 20.0, 3000.0] {
-                    let ([x, y], depth) = rays.project(ray.origin + ray.direction * t).expect("in front of the eye");
-                    // A million spans away, a cell is 1e-10 of the numbers it is computed from.
-                    let error_px = (x - point_px[0]).abs().max((y - point_px[1]).abs());
-                    assert!(error_px < 1e-6 && depth > 0.0, "{eye}: {point_px:?} at {t} is off by {error_px} pixels");
+            let perspective = OrbitCamera { roll_degrees: 25.0, ..OrbitCamera::new(eye, target, 40.0) };
+            for camera in [perspective, OrbitCamera { orthographic_height: Some(3.0), ..perspective }] {
+                let rays = PixelRays::new(&camera, &grid, [640, 360]);
+                for point_px in [[0.5, 0.5], [320.0, 180.0], [639.5, 17.25], [100.0, 359.0]] {
+                    let ray = rays.ray(point_px);
+                    for t in [0.5, 20.0, 3000.0] {
+                        let ([x, y], depth) =
+                            rays.project(ray.origin + ray.direction * t).expect("in front of the eye");
+                        // A million spans away, a cell is 1e-10 of the numbers it is computed from.
+                        let error_px = (x - point_px[0]).abs().max((y - point_px[1]).abs());
+                        assert!(
+                            error_px < 1e-6 && depth > 0.0,
+                            "{eye}: {point_px:?} at {t} is off by {error_px} pixels"
+                        );
+                    }
                 }
+                let behind = rays.ray([320.0, 180.0]);
+                assert_eq!(rays.project(behind.origin - behind.direction * (behind.start_cells + 2.0)), None);
             }
-            let behind = rays.ray([320.0, 180.0]);
-            assert_eq!(rays.project(behind.origin - behind.direction * (behind.start_cells + 2.0)), None);
         }
     }
 }

@@ -10,9 +10,9 @@ pub fn camera_from_world(camera: &OrbitCamera, grid: &Grid) -> DMat4 {
     DMat4::from_scale(DVec3::splat(1.0 / grid.span)) * camera.camera_from_world()
 }
 
-/// From that space to the picture's; depth is reversed.
-pub fn clip_from_camera(camera: &OrbitCamera, grid: &Grid, size_px: [u32; 2]) -> DMat4 {
-    let projection = camera.projection(f64::from(size_px[0]) / f64::from(size_px[1]));
+/// From that space to the picture's; depth is reversed. `farthest`: what is seen is no farther from the eye, scene units.
+pub fn clip_from_camera(camera: &OrbitCamera, grid: &Grid, size_px: [u32; 2], farthest: f64) -> DMat4 {
+    let projection = camera.projection(f64::from(size_px[0]) / f64::from(size_px[1]), farthest);
     projection * DMat4::from_scale(DVec3::splat(grid.span))
 }
 

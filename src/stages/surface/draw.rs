@@ -2,7 +2,7 @@
 //!
 //! In: the posed mesh in the camera's axes, in cells ([`camera_from_world`]), with all its textures. Out:
 //! [`SurfaceImage`]. Opaque surfaces hide one another; MASK cuts out by its cutoff, BLEND is there in a share
-//! of the pixels. Both sides of every triangle are drawn, with normals on the side of the eye.
+//! of the pixels. What is double-sided is drawn from behind too; normals are on the side of the eye.
 //!
 //! [`camera_from_world`]: crate::stages::pixels::projection::camera_from_world
 
@@ -44,6 +44,8 @@ pub const MIRRORS: &[Mirror] = &[mirror!(
 pub struct Viewpoint<'a> {
     pub camera: &'a OrbitCamera,
     pub grid: &'a Grid,
+    /// What is drawn is no farther from the eye, scene units.
+    pub farthest: f64,
     /// Of an emissive factor of 1, nits.
     pub emission: f64,
 }
@@ -58,7 +60,9 @@ pub fn record(
 ) {
     frame.raster(attachments(image, depth));
     let surface = frame.uniform(&SurfaceParams {
-        clip_from_camera: clip_from_camera(seen.camera, seen.grid, image.size_px()).as_mat4().to_cols_array_2d(),
+        clip_from_camera: clip_from_camera(seen.camera, seen.grid, image.size_px(), seen.farthest)
+            .as_mat4()
+            .to_cols_array_2d(),
         world_from_camera: padded_axes(seen.camera),
         emission: seen.emission as f32,
         pad: 0,

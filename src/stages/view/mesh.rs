@@ -42,6 +42,8 @@ pub struct MeshTarget<'a> {
 pub struct MeshView<'a> {
     pub camera: &'a OrbitCamera,
     pub grid: &'a Grid,
+    /// What is drawn is no farther from the eye, scene units.
+    pub farthest: f64,
     pub look: &'a Look,
 }
 
@@ -66,7 +68,7 @@ pub fn record(gpu: &Gpu, frame: &mut Recorder, posed: &PosedMesh<'_>, seen: Mesh
 
 fn mesh_params(seen: MeshView<'_>, size_px: [u32; 2]) -> MeshParams {
     MeshParams {
-        clip_from_camera: clip_from_camera(seen.camera, seen.grid, size_px).as_mat4().to_cols_array_2d(),
+        clip_from_camera: clip_from_camera(seen.camera, seen.grid, size_px, seen.farthest).as_mat4().to_cols_array_2d(),
         world_from_camera: padded_axes(seen.camera),
     }
 }

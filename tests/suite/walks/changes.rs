@@ -109,7 +109,7 @@ pub fn change(settings: &mut Settings, rng: &mut TestRng) {
 
 fn camera(rng: &mut TestRng) -> OrbitCamera {
     let eye = DVec3::new(between(rng, -8.0, 8.0), between(rng, 2.0, 9.0), between(rng, 5.0, 12.0));
-    OrbitCamera { eye, target: DVec3::new(0.0, 1.0, 0.0), fov_y_degrees: one_of(rng, &[30.0, 60.0]) }
+    OrbitCamera::new(eye, DVec3::new(0.0, 1.0, 0.0), one_of(rng, &[30.0, 60.0]))
 }
 
 /// Nodes 0 is in every scene, 2 and 3 in the busy one: elsewhere they are refused, as a walk expects.
