@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use crate::color::luminance;
 use crate::scene::{LightKind, Pose, Scene};
 use crate::settings::lighting::{LightEdit, Lighting, SunShines};
 
@@ -108,6 +109,19 @@ pub fn left_out(scene: &Scene, pose: &Pose, lighting: &Lighting, shown: &[bool])
         format!("light \"{}\"{node} is left out: in this pose it has no finite place or no direction", light.name)
     })
     .collect()
+}
+
+/// The most that one of the lights brings to a point, were nothing between: luminance, lux. `None` where none shines.
+pub fn brightest_at(known: &[KnownLight], point: DVec3) -> Option<f64> {
+    let shining = known.iter().filter(|light| light.shines == Shines::Yes);
+    let lux = shining.map(|light| {
+        let away = match light.light.kind {
+            LightKind::Directional => 1.0,
+            LightKind::Point { .. } | LightKind::Spot { .. } => light.position.distance_squared(point),
+        };
+        luminance(strength(&light.light).to_array()) / away
+    });
+    lux.filter(|lux| lux.is_finite()).reduce(f64::max)
 }
 
 impl KnownLight {

@@ -4,6 +4,6 @@ struct PictureExposure {
     // Light is multiplied by it.
     factor: f32,
     // What it was measured from, nits or lux; 0 where nothing shines.
-    mean: f32,
+    bright: f32,
     pad: vec2<u32>,
 }

@@ -42,6 +42,7 @@ mod selection;
 mod shortcuts;
 mod stage;
 mod start;
+mod steady;
 mod theme;
 mod undo;
 mod viewport;
@@ -63,6 +64,7 @@ pub use self::run::run;
 use self::screenshots::Screenshots;
 use self::stage::Stage;
 pub use self::start::Start;
+use self::steady::SteadyExposure;
 use self::undo::Undo;
 use self::viewport::Viewport;
 use crate::engine::Engine;
@@ -99,6 +101,7 @@ pub struct App {
     /// When the camera was moved last, on the window's clock.
     moved_at_secs: Option<f64>,
     rescue: Rescue,
+    exposure: SteadyExposure,
 }
 
 impl App {
@@ -145,6 +148,7 @@ impl App {
             render,
             moved_at_secs: None,
             rescue: Rescue::default(),
+            exposure: SteadyExposure::default(),
         };
         gpu.warnings().into_iter().for_each(|warning| app.journal.tell(Severity::Warning, warning));
         Ok(app)

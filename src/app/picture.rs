@@ -79,6 +79,8 @@ impl App {
                 self.journal.note(Severity::Warning, warning);
             }
         }
+        let measured = (self.stage.results, self.stage.exposure);
+        self.exposure.hold(&mut settings, self.playback.is_playing(), measured);
         let waits = self.screenshots.is_wanted() && !self.playback.is_playing();
         let coarse = self.is_moving(clock_secs) && !waits;
         let coarseness = if coarse { viewport::coarseness(self.stage.ms_per_pixel(), full_px) } else { 1 };

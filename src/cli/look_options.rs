@@ -33,7 +33,8 @@ pub struct LookOptions {
     /// Shows bare colours, without the headlight
     #[arg(long)]
     no_shading: bool,
-    /// Light is multiplied by 2 to this before it is shown: -40 to 40; otherwise what its mean asks for
+    /// Light is multiplied by 2 to this before it is shown: -40 to 40; otherwise (auto) so that one lit pixel in twenty is
+    /// nearly white, or the mean of voxels grey; that of the first picture holds for all of a sequence
     #[arg(long, value_name = "STOPS|auto", allow_hyphen_values = true)]
     exposure: Option<Exposure>,
     /// How exposed light becomes the brightness of a screen; otherwise aces

@@ -122,7 +122,6 @@ pub fn with_progress<T>(what: &'static str, work: impl FnOnce(&Progress) -> T) -
     })
 }
 
-/// A picture of light as it is.
 /// Whether a file stands for standard output.
 pub fn is_standard(file: &Path) -> bool {
     file.as_os_str() == "-"

@@ -9,6 +9,7 @@ use octolume::disk_cache::DiskCache;
 use octolume::experiment::{Traced, traced};
 use octolume::export;
 use octolume::prepare::Prepared;
+use octolume::settings::lighting::Lighting;
 use octolume::settings::{Settings, SurfaceView, View};
 
 use super::output;
@@ -47,14 +48,13 @@ impl ReferenceOptions {
         if is_light { Ok(()) } else { Err(possible()) }
     }
 
-    /// Traces a picture, writes it, and says how far off it may be.
+    /// Traces a picture, writes it, and says how far off it may be. Returns what its light was multiplied by.
     pub fn draw(
         &self,
         (prepared, disk): (&Prepared, Option<&DiskCache>),
         settings: &Settings,
-        size_px: [u32; 2],
-        file: &Path,
-    ) -> anyhow::Result<()> {
+        (size_px, file, is_transparent): ([u32; 2], &Path, bool),
+    ) -> anyhow::Result<f64> {
         let pixel = if self.smooth_edges { PixelSampling::Area } else { PixelSampling::Centre };
         let options = Options { seed: self.seed.unwrap_or(0), pixel, ..Options::new(size_px) };
         let paths = (options, self.samples.unwrap_or(SAMPLES));
@@ -62,7 +62,7 @@ impl ReferenceOptions {
             output::with_progress("tracing paths", |progress| traced((prepared, disk), settings, paths, progress))?;
         output::warnings(&warnings);
         output::message(&summary(&film, settings));
-        write(&film, settings, file)
+        write(&film, settings, file, is_transparent)
     }
 }
 
@@ -79,12 +79,24 @@ fn summary(film: &Film, settings: &Settings) -> String {
     )
 }
 
-fn write(film: &Film, settings: &Settings, file: &Path) -> anyhow::Result<()> {
+fn write(film: &Film, settings: &Settings, file: &Path, is_transparent: bool) -> anyhow::Result<f64> {
     let part = settings.method.look.surface;
-    let light = film.shown(part, &settings.method.lighting).unwrap_or_default();
+    // What lies behind a pixel that is covered in part must not tint it.
+    let sky_nits = if is_transparent { [0.0; 3] } else { settings.method.lighting.sky_nits };
+    let light = film.shown(part, &Lighting { sky_nits, ..settings.method.lighting.clone() }).unwrap_or_default();
     if output::is_exr(file) {
-        return Ok(export::write_exr(file, film.size_px(), &light)?);
+        export::write_exr(file, film.size_px(), &light)?;
+        return Ok(1.0);
     }
-    let picture = Display::new(&settings.method.look, part, &light).picture(&light, film.size_px());
-    output::picture(file, &image::DynamicImage::from(picture).into_rgba8(), settings)
+    let display = Display::new(&settings.method.look, part, &light);
+    let picture = if is_transparent {
+        display.cut_out(&light, film.size_px())
+    } else {
+        image::DynamicImage::from(display.picture(&light, film.size_px())).into_rgba8()
+    };
+    if settings.method.look.is_exposed() {
+        output::message(&format!("exposure {:+.2} stops", display.exposure.log2()));
+    }
+    output::picture(file, &picture, settings)?;
+    Ok(display.exposure)
 }

@@ -35,6 +35,9 @@ pub struct Render {
     /// Frames a second: frame k is at k / FPS seconds
     #[arg(long, value_name = "FPS", value_parser = values::frames_per_sec, requires = "frames")]
     fps: Option<f64>,
+    /// Leaves the background of a PNG transparent, and the sky
+    #[arg(long)]
+    transparent: bool,
     #[command(flatten)]
     reference: ReferenceOptions,
     #[command(flatten)]
@@ -55,9 +58,29 @@ impl Render {
         let mut session = Session::open(&self.scene, &self.common, &mut settings)?;
         for (file, time_secs) in self.pictures(&settings) {
             settings.shot.motion.time_secs = time_secs;
-            draw(&mut session, &settings, size_px, &file)?;
+            self.draw(&mut session, &settings, size_px, &file)?;
+            if settings.method.look.is_exposed() && settings.method.look.exposure_stops.is_none() {
+                let stops = session.engine.exposure().log2();
+                output::message(&format!("exposure {stops:+.2} stops"));
+                settings.method.look.exposure_stops = Some(stops);
+            }
         }
         Ok(())
+    }
+
+    fn draw(&self, session: &mut Session, settings: &Settings, size_px: [u32; 2], file: &Path) -> anyhow::Result<()> {
+        if settings.method.look.view == View::Ghost {
+            session.take_exact(settings)?;
+        }
+        session.run(settings, size_px)?;
+        if output::is_exr(file) {
+            // Where nothing is to be seen, all of it is black.
+            let nothing = || vec![[0.0; 4]; size_px[0] as usize * size_px[1] as usize];
+            let light = session.engine.read_surfaces()?.unwrap_or_else(nothing);
+            return Ok(export::write_exr(file, size_px, &light)?);
+        }
+        let picture = if self.transparent { session.engine.read_cut_out() } else { session.engine.read_image() };
+        output::picture(file, &picture?, settings)
     }
 
     /// Pictures of the path tracer, which needs no GPU.
@@ -68,7 +91,11 @@ impl Render {
         for (file, time_secs) in self.pictures(settings) {
             settings.shot.motion.time_secs = time_secs;
             told.tell(&prepared.past_clip(&settings.shot.motion));
-            self.reference.draw((&prepared, disk.as_ref()), settings, size_px, &file)?;
+            let to = (size_px, file.as_path(), self.transparent);
+            let exposure = self.reference.draw((&prepared, disk.as_ref()), settings, to)?;
+            if settings.method.look.is_exposed() {
+                settings.method.look.exposure_stops.get_or_insert(exposure.log2());
+            }
         }
         Ok(())
     }
@@ -82,6 +109,11 @@ impl Render {
             self.reference.choose_view(&mut settings, self.look.names_view())?;
         }
         self.check_output()?;
+        if output::is_exr(&self.output) && self.transparent {
+            return Err(
+                Usage("an .exr file tells by its alpha where nothing is; --transparent is for PNG".to_owned()).into()
+            );
+        }
         if output::is_exr(&self.output) && settings.method.look.view != View::Surfaces {
             let cause = "an .exr file holds linear light, which only views of surfaces give, such as --view final";
             return Err(Usage(cause.to_owned()).into());
@@ -115,20 +147,6 @@ impl Render {
             _ => vec![(self.output.clone(), settings.shot.motion.time_secs)],
         }
     }
-}
-
-fn draw(session: &mut Session, settings: &Settings, size_px: [u32; 2], file: &Path) -> anyhow::Result<()> {
-    if settings.method.look.view == View::Ghost {
-        session.take_exact(settings)?;
-    }
-    session.run(settings, size_px)?;
-    if output::is_exr(file) {
-        // Where nothing is to be seen, all of it is black.
-        let nothing = || vec![[0.0; 4]; size_px[0] as usize * size_px[1] as usize];
-        let light = session.engine.read_surfaces()?.unwrap_or_else(nothing);
-        return Ok(export::write_exr(file, size_px, &light)?);
-    }
-    output::picture(file, &session.engine.read_image()?, settings)
 }
 
 /// `walk.png` → `walk-0007.png`.

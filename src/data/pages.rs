@@ -15,10 +15,11 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::gpu::{Constant, Mirror, constants, mirror};
 
-/// Slots of a segment: the unit that changes owners.
-pub const SEGMENT_SLOTS: u32 = 256;
+/// Slots of a segment: the unit that changes owners. What small objects leave of one is lost to others, so that a
+/// hundred thousand of them still fit a binding of 128 MiB.
+pub const SEGMENT_SLOTS: u32 = 64;
 /// Segments of a page: 1 MiB of world voxels.
-pub const PAGE_SEGMENTS: u32 = 256;
+pub const PAGE_SEGMENTS: u32 = 1024;
 pub const WORLD_VOXEL_BYTES: u64 = 16;
 /// Threads between two entries of the hint table, by which a thread finds its work item.
 pub const WORK_HINT_THREADS: u32 = 64;

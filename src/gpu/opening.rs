@@ -1,6 +1,6 @@
 //! Opening a device: which adapter, and what is asked of it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 
 use super::device::OpenDevice;
@@ -106,7 +106,9 @@ fn choose<'a>(adapters: &'a [wgpu::Adapter], name: Option<&str>) -> Result<&'a w
     let wanted = name.unwrap_or_default().to_lowercase();
     let chosen = adapters.iter().find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted));
     chosen.ok_or_else(|| {
-        let names: Vec<_> = adapters.iter().map(|adapter| format!("\"{}\"", adapter.get_info().name)).collect();
+        // One adapter may be there through several drivers.
+        let names: BTreeSet<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+        let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
         GpuError::NoAdapter {
             wanted: name.map_or_else(String::new, |name| format!(" has \"{name}\" in its name")),
             found: match names.len() {

@@ -188,7 +188,7 @@ impl Pass {
             Self::ListGlossyTiles => &["cones/glossy_tiles", "build/scan_sum", "build/scan_spread", "cones/list_tiles"],
             Self::TraceSpecular => &["cones/specular"],
             Self::ComposeSurfaces => &["surface/compose"],
-            Self::MeasureExposure => &["surface/sum_luminance", "surface/mean_luminance"],
+            Self::MeasureExposure => &["surface/count_luminance", "surface/expose"],
             Self::ShowSurfaces => &["view/show_surfaces"],
             Self::MarchVoxels => &["view/march"],
             Self::MarchLight => &["view/march_light"],

@@ -71,6 +71,15 @@ impl Look {
     }
 
     /// Whether the picture shows light that the octree holds.
+    /// Shown with an exposure.
+    pub fn is_exposed(&self) -> bool {
+        match self.view {
+            View::Voxels => self.color.is_light(),
+            View::Surfaces => self.surface.is_light(),
+            View::Mesh | View::Ghost | View::Slice | View::ShadowMap => false,
+        }
+    }
+
     pub fn shows_light(&self) -> bool {
         match self.view {
             View::Voxels => self.color.is_light(),

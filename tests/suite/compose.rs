@@ -9,8 +9,6 @@ use octolume::stages::pixels::{NO_DEPTH, Picture, ViewParams};
 use octolume::stages::surface::brdf_ref;
 use octolume::stages::surface::compose::{self, ComposeParams, Terms};
 use octolume::stages::surface::compose_ref::{self, Light};
-use octolume::stages::surface::sum_luminance::{self, SUM_BYTES};
-use octolume::stages::surface::{mean_luminance_ref, sum_luminance_ref};
 use octolume::stages::view::palette::legend_value;
 use octolume::stages::view::show_surfaces::{self, ShowSurfacesParams, ShownExposure};
 use octolume::stages::view::{Palette, show_surfaces_ref};
@@ -142,29 +140,6 @@ fn what_was_not_traced_is_black() {
     for surface in [SurfaceView::Diffuse, SurfaceView::Specular, SurfaceView::Irradiance] {
         assert!(rig.composed(gpu, surface, terms).iter().all(|pixel| pixel[..3] == [0.0; 3]), "{surface:?}");
     }
-}
-
-#[test]
-fn the_mean_luminance_is_geometric_and_counts_what_shines() {
-    let gpu = gpu();
-    let mut pixels = vec![[0.0, 0.0, 0.0, 1.0]; 5000];
-    pixels.extend([[7.0, 7.0, 7.0, 0.0]; 99]);
-    for (i, pixel) in pixels.iter_mut().take(3000).enumerate() {
-        let gray = if i % 2 == 0 { 0.5 } else { 8.0 };
-        *pixel = [gray, gray, gray, 1.0];
-    }
-    let mean = |pixels: &[[f32; 4]]| {
-        let (shown, sums) = (gpu.upload("shown", pixels).expect("small"), buffer(gpu, SUM_BYTES));
-        let mut frame = Recorder::default();
-        sum_luminance::record(gpu, &mut frame, pixels.len() as u32, &shown, &sums);
-        Job::new(frame).run_to_end(gpu).expect("runs");
-        mean_luminance_ref::mean_luminance(&gpu.read(&sums, 0..SUM_BYTES).expect("readable"))
-    };
-    // Weights of the channels sum to 1, and logarithms of up to 10 are summed, to a few last places of f32.
-    assert!((mean(&pixels).expect("something shines") - 2.0).abs() < 1e-5);
-    let expected = sum_luminance_ref::mean_luminance(&pixels).expect("the same");
-    assert!((expected - 2.0).abs() < 1e-12);
-    assert_eq!(mean(&[[0.0, 0.0, 0.0, 1.0]; 10]), None);
 }
 
 #[test]

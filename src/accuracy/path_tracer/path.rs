@@ -35,7 +35,7 @@ impl TracedScene<'_> {
     pub(super) fn sample(&self, ray: Segment, sampler: &mut Sampler) -> Sample {
         let Some(seen) = self.meet(ray, sampler.coin()) else { return Sample::default() };
         let mut sample = Sample::of_surface();
-        sample.add(Term::Direct, seen.emission + self.lit_by_all(&seen, sampler));
+        sample.add(Term::Direct, seen.emission + seen.unlit + self.lit_by_all(&seen, sampler));
         self.add_emitters(&seen, sampler, &mut sample);
         let [u, v, s, t] = sampler.four();
         if let Some(chosen) = seen.brdf.scatter_diffuse(seen.view, [u, v]) {

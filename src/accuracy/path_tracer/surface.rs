@@ -48,6 +48,8 @@ pub struct Surface {
     pub view: DVec3,
     /// Linear RGB, nits.
     pub emission: DVec3,
+    /// What an unlit surface shows whoever looks straight at it, nits.
+    pub unlit: DVec3,
     pub brdf: Brdf,
 }
 
@@ -65,16 +67,14 @@ impl SurfaceReader<'_> {
         self.material.alpha_mode == AlphaMode::Opaque
     }
 
+    /// What is unlit shows itself to the eye alone, and lights nothing.
     pub fn emits(&self) -> bool {
         let emits = self.emission > 0.0 && self.material.emissive.iter().any(|channel| *channel > 0.0);
-        emits || self.material.unlit
+        emits && !self.material.unlit
     }
 
-    /// Linear RGB, nits. Unlit materials emit what they show.
+    /// Linear RGB, nits.
     pub fn emission(&self, vertices: [u32; 3], place: DVec3) -> DVec3 {
-        if self.material.unlit {
-            return DVec3::from_slice(&self.base_color(vertices, place));
-        }
         if !self.emits() {
             return DVec3::ZERO;
         }
@@ -95,8 +95,13 @@ impl SurfaceReader<'_> {
             distance,
             view,
             emission: self.emission(vertices, place),
+            unlit: self.unlit(vertices, place),
             brdf: self.brdf(vertices, place, normal),
         })
+    }
+
+    fn unlit(&self, vertices: [u32; 3], place: DVec3) -> DVec3 {
+        if self.material.unlit { DVec3::from_slice(&self.base_color(vertices, place)) } else { DVec3::ZERO }
     }
 
     fn brdf(&self, vertices: [u32; 3], place: DVec3, normal: DVec3) -> Brdf {

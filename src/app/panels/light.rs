@@ -8,9 +8,9 @@ use super::{light_method, nothing};
 use crate::app::command::Command;
 use crate::app::scale_ticks::short;
 use crate::app::theme;
-use crate::lights::{KnownLight, LightSource, Shines};
+use crate::lights::{KnownLight, LightSource, Shines, brightest_at};
 use crate::scene::{LightKind, OrbitCamera, Scene};
-use crate::settings::lighting::{AddedLight, Lighting, SunShines};
+use crate::settings::lighting::{AddedLight, LightEdit, Lighting, SunShines};
 
 const ROW_HEIGHT: f32 = 18.0;
 /// Of the list, before it scrolls.
@@ -143,12 +143,14 @@ fn add_ui(ui: &mut Ui, panel: LightPanel<'_>, lighting: &mut Lighting, selected:
                 ] {
                     if ui.button(name).clicked() {
                         let number = lighting.added.len();
-                        lighting.added.push(at_camera(kind, lighting.free_name(), &panel.camera));
+                        lighting.added.push(at_camera(kind, lighting.free_name(), panel));
                         *selected = Some(LightSource::Added(number));
                     }
                 }
             });
-            menu.response.on_hover_text("A light where the camera is, which shines where it looks.");
+            menu.response.on_hover_text(
+                "A light where the camera is, which shines where it looks: as bright there as the brightest that is there now.",
+            );
         });
         match *selected {
             Some(LightSource::Added(index)) => remove_ui(ui, lighting, index, selected),
@@ -172,21 +174,46 @@ fn remove_ui(ui: &mut Ui, lighting: &mut Lighting, index: usize, selected: &mut 
     }
 }
 
-fn at_camera(kind: LightKind, name: String, camera: &OrbitCamera) -> AddedLight {
+/// It brings to what is looked at as much as the brightest light that shines there, or as our sun would.
+fn at_camera(kind: LightKind, name: String, panel: LightPanel<'_>) -> AddedLight {
+    let camera = panel.camera;
     let direction = (camera.target - camera.eye).normalize_or(glam::DVec3::NEG_Y).to_array();
-    AddedLight { position: camera.eye.to_array(), direction, ..AddedLight::new(name, kind) }
+    let mut added = AddedLight { position: camera.eye.to_array(), direction, ..AddedLight::new(name, kind) };
+    let lux = brightest_at(panel.known, camera.target).unwrap_or(LightEdit::DIRECTIONAL_LUX);
+    added.light.intensity = match kind {
+        LightKind::Directional => lux,
+        LightKind::Point { .. } | LightKind::Spot { .. } => lux * camera.distance().powi(2),
+    };
+    added
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lights::known_lights;
 
     #[test]
     fn a_new_light_stands_at_the_camera_and_shines_where_it_looks() {
         let camera =
             OrbitCamera { eye: glam::DVec3::new(1.0, 5.0, 1.0), target: glam::DVec3::ONE, ..OrbitCamera::default() };
-        let light = at_camera(LightKind::SPOT, "light 1".to_owned(), &camera);
-        assert_eq!((light.position, light.direction), ([1.0, 5.0, 1.0], [0.0, -1.0, 0.0]));
-        assert!(light.light.on && light.light.intensity == 1000.0);
+        let (lighting, scene) = (Lighting::default(), Scene::default());
+        let lux = LightEdit::DIRECTIONAL_LUX;
+        let sun = known_lights(&scene, &scene.pose(None, 0.0), &lighting, &[], false);
+        for known in [&sun[..], &[]] {
+            let panel = LightPanel { lighting: &lighting, scene: &scene, known, camera };
+            let light = at_camera(LightKind::SPOT, "light 1".to_owned(), panel);
+            assert_eq!((light.position, light.direction), ([1.0, 5.0, 1.0], [0.0, -1.0, 0.0]));
+            // As bright as the sun, 4 away; the sun is tinted.
+            assert!(light.light.on && (light.light.intensity / (16.0 * lux) - 1.0).abs() < 0.1, "{light:?}");
+            let light = at_camera(LightKind::Directional, "light 2".to_owned(), panel);
+            assert!((light.light.intensity / lux - 1.0).abs() < 0.1, "{light:?}");
+        }
+        let dim = AddedLight { position: [1.0, 2.0, 1.0], ..AddedLight::new("lamp".to_owned(), LightKind::POINT) };
+        let mut lighting = Lighting { added: vec![dim], ..Lighting::default() };
+        (lighting.sun.shines, lighting.added[0].light.intensity) = (SunShines::Never, 3.0);
+        let known = known_lights(&scene, &scene.pose(None, 0.0), &lighting, &[], false);
+        // Three candela, one away.
+        let panel = LightPanel { lighting: &lighting, scene: &scene, known: &known, camera };
+        assert_eq!(at_camera(LightKind::POINT, "light 3".to_owned(), panel).light.intensity, 48.0);
     }
 }

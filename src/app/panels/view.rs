@@ -43,12 +43,7 @@ pub fn ui(ui: &mut Ui, panel: ViewPanel<'_>) -> Vec<Command> {
         View::Voxels | View::Mesh | View::Ghost => surface_ui(ui, &mut look, panel.depth),
         View::Surfaces => surfaces::ui(ui, &mut look),
     }
-    let is_exposed = match look.view {
-        View::Voxels => look.color.is_light(),
-        View::Surfaces => look.surface.is_light(),
-        View::Mesh | View::Ghost | View::Slice | View::ShadowMap => false,
-    };
-    if is_exposed {
+    if look.is_exposed() {
         exposure_ui(ui, &mut look, panel.exposure);
     }
     commands.extend(camera_ui(ui, panel.camera, panel.cameras));
@@ -103,7 +98,8 @@ fn surface_ui(ui: &mut Ui, look: &mut Look, depth: u32) {
 fn exposure_ui(ui: &mut Ui, look: &mut Look, factor: f64) {
     let mut automatic = look.exposure_stops.is_none();
     let mut stops = look.exposure_stops.unwrap_or(factor.log2());
-    let tip = "Light is multiplied by 2 to this before it is shown. Auto: what its mean asks for.";
+    let tip = "Light is multiplied by 2 to this before it is shown. Auto: so that one lit pixel in twenty is nearly white, \
+               or the mean of voxels grey; while a clip plays it stays. Without Auto it is locked as it is.";
     control(ui, "Exposure", tip, |ui| {
         // All of it in one row of the panel, however many digits there are.
         ui.spacing_mut().slider_width = 36.0;

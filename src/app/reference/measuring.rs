@@ -34,7 +34,7 @@ pub struct MeasuredPart {
 pub fn measure(cones: &ConeParts, traced: &Traced) -> Result<Vec<MeasuredPart>, CompareError> {
     let both = PARTS.into_iter().zip(&cones.pixels).filter_map(|(part, pixels)| {
         let (pixels, paths) = (pixels.as_ref()?, &traced.part(part)?.image);
-        let error = compare(pixels, paths, cones.size_px, &Display::new(&cones.look, part, paths));
+        let error = compare(pixels, paths, cones.size_px, &Display::of_mean(&cones.look, part, paths));
         Some(error.map(|error| MeasuredPart { part, error }))
     });
     both.collect()

@@ -11,8 +11,8 @@ use crate::settings::SurfaceView;
 use crate::stages::cones::image_bytes;
 use crate::stages::surface::RADIANCE_BYTES;
 use crate::stages::surface::compose::{self, ComposeParams, Terms};
-use crate::stages::surface::mean_luminance::{self, EXPOSURE_BYTES, PictureExposure};
-use crate::stages::surface::sum_luminance::{self, SUM_BYTES};
+use crate::stages::surface::count_luminance::{self, COUNT_BYTES};
+use crate::stages::surface::expose::{self, EXPOSURE_BYTES, PictureExposure};
 
 #[derive(Debug, Default)]
 pub struct ComposedLight {
@@ -23,7 +23,7 @@ pub struct ComposedLight {
 
 #[derive(Debug, Default)]
 pub struct Exposure {
-    sums: Slot,
+    counts: Slot,
     pub exposure: Slot,
     /// As the GPU has found it.
     pub measured: PictureExposure,
@@ -82,12 +82,12 @@ impl Made for Exposure {
     ) -> Result<Option<Read>, EngineError> {
         let gpu = making.gpu;
         let composed = parts.made::<ComposedLight>(making.keys)?;
-        let sums = self.sums.ensure(gpu, "sums of luminance", SUM_BYTES)?;
+        let counts = self.counts.ensure(gpu, "counts of luminance", COUNT_BYTES)?;
         let exposure = self.exposure.ensure_as(gpu, "exposure", EXPOSURE_BYTES, wgpu::BufferUsages::UNIFORM)?;
         let [width, height] = making.request.shot.size_px;
         making.begin(frame, Pass::MeasureExposure);
-        sum_luminance::record(gpu, frame, width * height, &composed.shown.made("shown light")?, &sums);
-        mean_luminance::record(gpu, frame, &sums, &exposure);
+        count_luminance::record(gpu, frame, width * height, &composed.shown.made("shown light")?, &counts);
+        expose::record(gpu, frame, &counts, &exposure);
         Ok(Some((exposure, 0..EXPOSURE_BYTES)))
     }
 

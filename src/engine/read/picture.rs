@@ -4,7 +4,7 @@ use super::super::{Engine, EngineError, PassTiming};
 use super::missing;
 use crate::color::srgb_byte;
 use crate::gpu::GpuTexture;
-use crate::stages::pixels::BACKGROUND;
+use crate::stages::pixels::{BACKGROUND, NO_DEPTH};
 
 impl Engine {
     /// The picture, gamma-encoded sRGB; `None` before the first, and where nothing is to be seen.
@@ -21,6 +21,22 @@ impl Engine {
         }
         let on_screen = self.on_screen.as_ref().ok_or_else(|| missing("picture"))?;
         Ok(on_screen.picture.read(&self.gpu)?)
+    }
+
+    /// The same, transparent where nothing is.
+    pub fn read_cut_out(&self) -> Result<image::RgbaImage, EngineError> {
+        let mut image = self.read_image()?;
+        let is_empty = self.wanted.as_ref().is_some_and(|wanted| wanted.shows_nothing());
+        let distances = match &self.on_screen {
+            Some(on_screen) if !is_empty => on_screen.picture.read_distances(&self.gpu)?,
+            _ => Vec::new(),
+        };
+        for (index, pixel) in image.pixels_mut().enumerate() {
+            if distances.get(index).is_none_or(|distance| *distance == NO_DEPTH) {
+                *pixel = image::Rgba([0; 4]);
+            }
+        }
+        Ok(image)
     }
 
     /// What light is multiplied by before it is shown; 1 where there is none.

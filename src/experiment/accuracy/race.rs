@@ -26,7 +26,7 @@ pub fn run(
     let part = settings.method.look.surface;
     let light = |film: &Film| shown(film, part, (prepared, settings));
     let truth_light = light(truth)?;
-    let shown = Display::new(&settings.method.look, part, &truth_light);
+    let shown = Display::of_mean(&settings.method.look, part, &truth_light);
     let mut film = scene.new_film();
     let mut race = Race { equal_time: None, as_right: None };
     // A truth that is hardly better than what is judged by it would say nothing.

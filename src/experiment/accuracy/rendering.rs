@@ -197,7 +197,7 @@ impl ReadTerm {
         stem: Option<&str>,
     ) -> Result<(RenderingRow, Vec<NamedPicture>), ExperimentError> {
         let truth = shown(film, self.part, (prepared, settings))?;
-        let shown = Display::new(&settings.method.look, self.part, &truth);
+        let shown = Display::of_mean(&settings.method.look, self.part, &truth);
         let error = picture_error::compare(&self.cones, &truth, film.size_px(), &shown)?;
         let bounces = settings.method.lighting.bounces;
         let stated = Term::of(self.part, bounces).map(|term| film.standard_error(term)).unwrap_or_default();

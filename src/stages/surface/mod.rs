@@ -2,8 +2,8 @@
 //! (section 4.5).
 //!
 //! ```text
-//! posed triangles ─► draw (surface image) ─► emission ─► direct or direct_march (a light each) ─► compose ─► sum_luminance
-//!                          └─► cones: diffuse, specular ────────────────────────────────────────▲   └─► view::show_surfaces ◄── mean_luminance ◄──┘
+//! posed triangles ─► draw (surface image) ─► emission ─► direct or direct_march (a light each) ─► compose ─► count_luminance
+//!                          └─► cones: diffuse, specular ────────────────────────────────────────▲   └─► view::show_surfaces ◄── expose ◄──────────┘
 //! ```
 //!
 //! Radiance is kept in a buffer of four floats a pixel, rows from the top: linear RGB in nits, and 1 where
@@ -12,6 +12,8 @@
 pub mod brdf_ref;
 pub mod compose;
 pub mod compose_ref;
+pub mod count_luminance;
+pub mod count_luminance_ref;
 pub mod direct;
 pub mod direct_march;
 pub mod direct_march_ref;
@@ -19,10 +21,8 @@ pub mod direct_ref;
 pub mod draw;
 pub mod emission;
 pub mod emission_ref;
-pub mod mean_luminance;
-pub mod mean_luminance_ref;
-pub mod sum_luminance;
-pub mod sum_luminance_ref;
+pub mod expose;
+pub mod expose_ref;
 
 use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{Constant, GpuBuffer, Kernel, PassBuilder, constants};

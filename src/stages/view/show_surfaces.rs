@@ -7,7 +7,7 @@ use crate::data::surface_image::SurfaceImage;
 use crate::gpu::{Constant, Gpu, GpuBuffer, Mirror, Recorder, constants, mirror};
 use crate::settings::{SurfaceView, ToneCurve};
 use crate::stages::pixels::{Picture, ViewParams};
-use crate::stages::surface::mean_luminance::PictureExposure;
+use crate::stages::surface::expose::PictureExposure;
 
 pub const SHOWS_VALUE: u32 = 0;
 pub const SHOWS_LIGHT: u32 = 1;
@@ -53,7 +53,7 @@ pub const MIRRORS: &[Mirror] =
 #[derive(Clone, Copy, Debug)]
 pub enum ShownExposure<'a> {
     Set(f64),
-    /// As [`crate::stages::surface::mean_luminance`] left it.
+    /// As [`crate::stages::surface::expose`] left it.
     Measured(&'a GpuBuffer),
 }
 
