@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::background::{Background, Outcome};
 use super::outline::Outline;
 use crate::disk_cache::DiskCache;
-use crate::prepare::{Preparation, PrepareError, Prepared, Stores, prepare_with};
+use crate::prepare::{Preparation, PrepareError, Prepared, Room, Stores, prepare_with};
 use crate::progress::Progress;
 use crate::scene::load::{self, LoadError, OpenOptions, SceneChoice};
 use crate::scene::{Scene, builtin};
@@ -25,6 +25,7 @@ pub struct Ready {
 pub struct Loader {
     options: OpenOptions,
     disk: Option<DiskCache>,
+    room: Room,
     job: Option<Job>,
 }
 
@@ -43,9 +44,9 @@ enum Failure {
 }
 
 impl Loader {
-    /// How files are opened, and where voxels are kept.
-    pub fn new(options: OpenOptions, disk: Option<DiskCache>) -> Self {
-        Self { options, disk, job: None }
+    /// How files are opened, where voxels are kept, and what they must fit.
+    pub fn new(options: OpenOptions, disk: Option<DiskCache>, room: Room) -> Self {
+        Self { options, disk, room, job: None }
     }
 
     /// Where what takes long is kept.
@@ -53,7 +54,7 @@ impl Loader {
         self.disk.as_ref()
     }
 
-    /// What [`Self::new`] was given.
+    /// What [`Self::new`] was given by a person.
     pub fn choices(&self) -> (OpenOptions, Option<DiskCache>) {
         (self.options.clone(), self.disk.clone())
     }
@@ -64,10 +65,10 @@ impl Loader {
         let source = source.to_owned();
         let title = format!("Opening {}", file_name(&source));
         let options = OpenOptions { scene: shown, ..self.options.clone() };
-        let (disk, wanted) = (self.disk.clone(), preparation.clone());
+        let (disk, room, wanted) = (self.disk.clone(), self.room.clone(), preparation.clone());
         let work = Background::start(ctx, move |progress| {
             let scene = Arc::new(open_scene(&source, &options, progress)?);
-            voxelize(scene, wanted, Stores { reuse: None, disk: disk.as_ref() }, progress)
+            voxelize(scene, wanted, Stores { reuse: None, disk: disk.as_ref(), room: Some(&room) }, progress)
         });
         self.job = Some(Job { title, preparation, opens: true, work });
     }
@@ -80,9 +81,9 @@ impl Loader {
         }
         let open = Arc::clone(open);
         let title = format!("Voxelizing at {0}³", preparation.discretization.grid);
-        let (disk, wanted) = (self.disk.clone(), preparation.clone());
+        let (disk, room, wanted) = (self.disk.clone(), self.room.clone(), preparation.clone());
         let work = Background::start(ctx, move |progress| {
-            let stores = Stores { reuse: Some(&open), disk: disk.as_ref() };
+            let stores = Stores { reuse: Some(&open), disk: disk.as_ref(), room: Some(&room) };
             voxelize(Arc::clone(&open.scene), wanted, stores, progress)
         });
         self.job = Some(Job { title, preparation, opens: false, work });
@@ -165,7 +166,8 @@ mod tests {
         };
         let prepared = prepare(Arc::new(Scene::default()), moment(0.0), None, &Progress::default());
         let prepared = Arc::new(prepared.expect("nothing to voxelize"));
-        let mut loader = Loader::new(OpenOptions::default(), None);
+        let mut loader =
+            Loader::new(OpenOptions::default(), None, Room { adapter: "test".to_owned(), buffer_bytes: u64::MAX });
         let mut begun = |preparation: &Preparation| {
             loader.discretize(&egui::Context::default(), &prepared, preparation.clone());
             loader.job.as_ref().map(|job| job.preparation.clone())

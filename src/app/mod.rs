@@ -129,12 +129,14 @@ impl App {
         let render = context.wgpu_render_state.clone().ok_or("the window has no GPU")?;
         let gpu = Arc::new(Gpu::from_wgpu(&SHADERS, &render.adapter, render.device.clone(), render.queue.clone()));
         theme::apply(&context.egui_ctx);
+        let stage = Stage::new(Arc::clone(&gpu));
+        let room = stage.engine.room();
         let mut app = Self {
             settings: start.settings,
             scene: None,
             playback: Playback::default(),
-            stage: Stage::new(Arc::clone(&gpu)),
-            loader: Loader::new(start.opening, start.disk),
+            stage,
+            loader: Loader::new(start.opening, start.disk, room),
             exact: ExactJob::default(),
             viewport: Viewport::default(),
             screenshots: Screenshots::default(),

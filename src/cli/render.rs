@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use octolume::export;
+use octolume::prepare::Stores;
 use octolume::settings::{Settings, View};
 
 use super::look_options::LookOptions;
@@ -86,7 +87,12 @@ impl Render {
     /// Pictures of the path tracer, which needs no GPU.
     fn trace(&self, settings: &mut Settings, size_px: [u32; 2]) -> anyhow::Result<()> {
         let disk = self.common.disk_cache();
-        let prepared = session::prepare_only(&self.scene, &self.common, disk.as_ref(), settings)?;
+        let prepared = session::prepare_only(
+            &self.scene,
+            &self.common,
+            Stores { disk: disk.as_ref(), ..Stores::default() },
+            settings,
+        )?;
         let mut told = Told::default();
         for (file, time_secs) in self.pictures(settings) {
             settings.shot.motion.time_secs = time_secs;

@@ -46,14 +46,17 @@ impl Session {
         settings: &mut Settings,
     ) -> anyhow::Result<Self> {
         let mut engine = take_gpu(common)?;
-        let prepared = prepare_only(scene, common, disk.as_ref(), settings)?;
+        let room = engine.room();
+        let stores = Stores { reuse: None, disk: disk.as_ref(), room: Some(&room) };
+        let prepared = prepare_only(scene, common, stores, settings)?;
         engine.set_prepared(Some(Arc::clone(&prepared)));
         Ok(Self { prepared, engine, disk, told: Told::default() })
     }
 
     /// Voxelizes for other settings, keeping what still holds.
     pub fn voxelize_again(&mut self, settings: &Settings) -> anyhow::Result<()> {
-        let stores = Stores { reuse: Some(&self.prepared), disk: self.disk.as_ref() };
+        let room = self.engine.room();
+        let stores = Stores { reuse: Some(&self.prepared), disk: self.disk.as_ref(), room: Some(&room) };
         self.prepared = voxelize(Arc::clone(&self.prepared.scene), settings, stores)?;
         self.engine.set_prepared(Some(Arc::clone(&self.prepared)));
         Ok(())
@@ -94,7 +97,7 @@ impl Session {
 pub fn prepare_only(
     scene: &Path,
     common: &Common,
-    disk: Option<&DiskCache>,
+    stores: Stores,
     settings: &mut Settings,
 ) -> anyhow::Result<Arc<Prepared>> {
     let scene = open_scene(scene, &common.open_options())?;
@@ -106,10 +109,10 @@ pub fn prepare_only(
     }
     output::warnings(&names.change_lights(&scene, &mut settings.method.lighting)?);
     settings.shot.visibility.shown_nodes(&scene)?;
-    let prepared = voxelize(Arc::new(scene), settings, Stores { reuse: None, disk })?;
+    let prepared = voxelize(Arc::new(scene), settings, stores)?;
     prepared.camera_index(&settings.shot)?;
     output::warnings(&prepared.warnings);
-    if disk.is_some() {
+    if stores.disk.is_some() {
         output::message(&format!("{}, in {:.0} ms", prepared.origins, prepared.voxelize_ms));
     }
     Ok(prepared)

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use octolume::data::grid::{Grid, morton_cell};
 use octolume::data::world_voxels::WorldVoxels;
 use octolume::export::{self, ExportError};
-use octolume::prepare::ExactVoxel;
+use octolume::prepare::{ExactVoxel, Stores};
 use octolume::settings::{Settings, View};
 
 use super::options::{Common, Moment};
@@ -59,7 +59,9 @@ impl Voxels {
     }
 
     fn exact(&self, settings: &mut Settings) -> anyhow::Result<(WorldVoxels, Grid)> {
-        let prepared = prepare_only(&self.scene, &self.common, self.common.disk_cache().as_ref(), settings)?;
+        let disk = self.common.disk_cache();
+        let stores = Stores { disk: disk.as_ref(), ..Stores::default() };
+        let prepared = prepare_only(&self.scene, &self.common, stores, settings)?;
         let hidden = prepared.hidden(&settings.shot.visibility, &prepared.pose(&settings.shot.motion)?)?;
         let surface = output::with_progress("voxelizing the posed mesh", |progress| {
             prepared.exact_voxels(&settings.shot.motion, &hidden, progress)

@@ -215,7 +215,7 @@ mod tests {
         // Part 2 takes the two freed segments and one behind part 1's.
         assert_eq!(list.items.len(), 4);
         assert_eq!(list.items[1], WorkItem { first_thread: 10, first_slot: 0, first_voxel: 310, part: 2, object: 7 });
-        assert_eq!(list.items[2].first_thread, 10 + 512);
+        assert_eq!(list.items[2].first_thread, 10 + 300_u32.div_ceil(SEGMENT_SLOTS) * SEGMENT_SLOTS);
         assert_eq!(list.hints.len(), 12);
     }
 }

@@ -11,7 +11,7 @@ use super::times::TimesBook;
 use crate::data::pages::SegmentOrder;
 use crate::gpu::{BufferUse, Gpu};
 use crate::plan::{self, Asked, FramePlan, Key, Keys};
-use crate::prepare::{ExactVoxels, Prepared};
+use crate::prepare::{ExactVoxels, Prepared, Room};
 use crate::settings::{MotionSettings, Settings};
 use crate::stages::pixels::Picture;
 
@@ -99,6 +99,12 @@ impl Engine {
 
     pub fn gpu(&self) -> &Arc<Gpu> {
         &self.gpu
+    }
+
+    /// What voxels must fit to be moved here.
+    pub fn room(&self) -> Room {
+        let buffer_bytes = self.gpu.limits.max_storage_buffer_binding_size;
+        Room { adapter: self.gpu.info.name.clone(), buffer_bytes }
     }
 
     /// Another scene, or other caches of it; everything on the GPU is dropped.

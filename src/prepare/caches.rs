@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 use rayon::prelude::*;
 
 use super::kept::{Kept, TextureHashes};
-use super::{CacheOrigins, PrepareError, Prepared, PreparedObject, lattice};
+use super::{CacheOrigins, PrepareError, Prepared, PreparedObject, Room, lattice};
 use crate::data::voxel_cache::VoxelCache;
 use crate::disk_cache::{ContentKey, DiskCache};
 use crate::progress::Progress;
@@ -21,6 +21,8 @@ pub struct Stores<'a> {
     /// Of the same scene; of any other nothing is taken.
     pub reuse: Option<&'a Prepared>,
     pub disk: Option<&'a DiskCache>,
+    /// What the voxels must fit, if anything.
+    pub room: Option<&'a Room>,
 }
 
 /// A cache to find or make.

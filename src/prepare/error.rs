@@ -1,5 +1,7 @@
 //! Why a scene cannot be prepared.
 
+use bytesize::ByteSize;
+
 use super::MotionError;
 use crate::progress::Cancelled;
 use crate::settings::VisibilityError;
@@ -21,6 +23,19 @@ pub enum PrepareError {
         "{scene}: at a span of {span} it is {cells:.3e} cells wide, and {limit} is the limit; choose a larger span"
     )]
     TooWide { scene: String, span: f64, cells: f64, limit: f64 },
+    #[error(
+        "{scene}: at a span of {span} at least {millions:.1} million voxels are expected, {bytes} in a buffer, and \
+         \"{adapter}\" allows {limit}; {would_fit} would fit"
+    )]
+    NoRoom {
+        scene: String,
+        millions: f64,
+        span: f64,
+        bytes: ByteSize,
+        limit: ByteSize,
+        adapter: String,
+        would_fit: String,
+    },
     #[error("the grid has {0} cells along an axis; it must be 64, 128, 256, 512 or 1024")]
     Grid(u32),
 }

@@ -18,6 +18,7 @@ mod origins;
 mod placing;
 mod preparation;
 mod prepared;
+mod room;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -41,6 +42,7 @@ use placing::{grid_around, tile_extent, visible_objects};
 pub use preparation::Preparation;
 use prepared::CacheKey;
 pub use prepared::{Prepared, PreparedObject, PreparedPart};
+pub use room::Room;
 
 /// Voxelizes every object of `scene` once. Caches of `reuse` that still fit are taken over. Nothing
 /// is read from or written to the disk.
@@ -50,7 +52,7 @@ pub fn prepare(
     reuse: Option<&Prepared>,
     progress: &Progress,
 ) -> Result<Prepared, PrepareError> {
-    prepare_with(scene, preparation, Stores { reuse, disk: None }, progress)
+    prepare_with(scene, preparation, Stores { reuse, ..Stores::default() }, progress)
 }
 
 /// The same, looking first for voxels in `stores`; what is voxelized is kept on the disk.
@@ -73,6 +75,9 @@ pub fn prepare_with(
     let (mut objects, shared) = visible_objects(&scene, &grid, motion);
     warnings.extend(shared);
     let (keys, first_users) = number_caches(&mut objects);
+    if let Some(room) = stores.room {
+        room.check(&scene, (&grid, discretization), (&objects, &first_users))?;
+    }
     let mode = discretization.mode;
     let reuse = stores.reuse.filter(|old| Arc::ptr_eq(&old.scene, &scene));
     let (textures, texture_hashes) = match reuse {

@@ -40,7 +40,7 @@ pub fn small(scene: &str) -> Arc<Scene> {
 }
 
 pub fn through(disk: &DiskCache, scene: &Arc<Scene>, discretization: &Discretization) -> Prepared {
-    let stores = Stores { reuse: None, disk: Some(disk) };
+    let stores = Stores { disk: Some(disk), ..Stores::default() };
     prepare_with(Arc::clone(scene), discretization, stores, &Progress::default())
         .unwrap_or_else(|error| panic!("{error}"))
 }
@@ -84,7 +84,7 @@ fn a_second_preparation_voxelizes_nothing() {
         assert_eq!(prepared.warnings, plain.warnings);
     }
     // What is at hand is not read again; another span is other content.
-    let stores = Stores { reuse: Some(&second), disk: Some(&folder.disk) };
+    let stores = Stores { reuse: Some(&second), disk: Some(&folder.disk), ..Stores::default() };
     let third = prepare_with(Arc::clone(&second.scene), &SMALL, stores, &Progress::default()).expect("prepares");
     assert_eq!(third.origins, CacheOrigins { kept: count, ..CacheOrigins::default() });
     let finer = Discretization { span: Some(0.9 * plain.grid.span), ..SMALL };
@@ -152,7 +152,7 @@ fn cancelling_leaves_whole_entries_or_none() {
                 }
                 progress.cancel();
             });
-            let stores = Stores { reuse: None, disk: Some(&folder.disk) };
+            let stores = Stores { disk: Some(&folder.disk), ..Stores::default() };
             let result = prepare_with(Arc::clone(&scene), &SMALL, stores, &progress);
             // Too late to cancel is no failure.
             progress.cancel();

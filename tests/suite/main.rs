@@ -98,6 +98,7 @@ mod real_scenes;
 mod references;
 mod repairs;
 mod residency;
+mod room;
 mod sampling;
 mod sampling_rig;
 mod scan;

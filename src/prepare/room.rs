@@ -1,0 +1,73 @@
+//! Whether the voxels of a scene fit an adapter, told before they are made: how many there will be is seen from the
+//! triangles' areas.
+
+use bytesize::ByteSize;
+
+use super::{PrepareError, PreparedObject};
+use crate::data::grid::Grid;
+use crate::data::pages::{SEGMENT_SLOTS, WORLD_VOXEL_BYTES};
+use crate::scene::Scene;
+use crate::settings::Discretization;
+
+/// What an adapter allows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Room {
+    pub adapter: String,
+    pub buffer_bytes: u64,
+}
+
+impl Room {
+    /// Refuses what will not fit, with what would. `first_users`: an object of each cache.
+    pub(super) fn check(
+        &self,
+        scene: &Scene,
+        (grid, discretization): (&Grid, &Discretization),
+        (objects, first_users): (&[PreparedObject], &[usize]),
+    ) -> Result<(), PrepareError> {
+        let of_cache: Vec<f64> = first_users.iter().map(|&user| least_voxels(scene, &objects[user])).collect();
+        let voxels: f64 = objects.iter().map(|object| of_cache[object.cache]).sum();
+        let least = objects.len() as f64 * f64::from(SEGMENT_SLOTS);
+        let bytes = voxels.max(least) * WORLD_VOXEL_BYTES as f64;
+        let excess = bytes / self.buffer_bytes as f64;
+        if excess <= 1.0 {
+            return Ok(());
+        }
+        // As many objects need as much at any span.
+        let would_fit =
+            if least > voxels { "fewer objects".to_owned() } else { what_fits(grid, discretization, excess) };
+        Err(PrepareError::NoRoom {
+            scene: scene.name.clone(),
+            millions: voxels / 1e6,
+            span: grid.span,
+            bytes: ByteSize(bytes as u64),
+            limit: ByteSize(self.buffer_bytes),
+            adapter: self.adapter.clone(),
+            would_fit,
+        })
+    }
+}
+
+/// Voxels are as many as cells that a surface crosses, which a span twice as large makes a quarter.
+fn what_fits(grid: &Grid, discretization: &Discretization, excess: f64) -> String {
+    let coarser = excess.sqrt();
+    let span = format!("a span of {:.2e}", grid.span * coarser * 1.05);
+    let fits = |cells: &u32| f64::from(*cells) * coarser <= f64::from(grid.cells());
+    match Discretization::GRIDS.into_iter().rev().find(fits) {
+        Some(cells) if discretization.span.is_none() => format!("a grid of {cells}, or {span}"),
+        _ => span,
+    }
+}
+
+/// As many as a thin surface has at least: a column of cells across the main axis of each triangle.
+fn least_voxels(scene: &Scene, object: &PreparedObject) -> f64 {
+    let lattice = &object.lattice;
+    let of_primitive = |primitive: &crate::scene::Primitive| -> f64 {
+        let cells: Vec<_> = primitive.positions.iter().map(|p| lattice.cells_from_mesh(p.as_dvec3())).collect();
+        let columns = primitive.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|vertex| cells[vertex as usize]);
+            (b - a).cross(c - a).abs().max_element() / 2.0
+        });
+        columns.filter(|columns| columns.is_finite()).sum()
+    };
+    scene.meshes[object.object.mesh].primitives.iter().map(of_primitive).sum()
+}
