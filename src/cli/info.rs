@@ -42,6 +42,8 @@ struct Facts {
     /// Nodes that are joints of a skin, each once.
     joints: usize,
     clips: Vec<ClipFacts>,
+    /// Name of the clip that is all of them at once, where none moves what another does.
+    clip_of_all: Option<String>,
     /// After all edits; our own sun is the last before those that were added.
     lights: Vec<LightFacts>,
     /// The file's scenes, and which of them is shown.
@@ -101,10 +103,11 @@ impl Facts {
             skins: scene.skins.len(),
             joints: scene.joint_count(),
             clips: scene
-                .clips
+                .own_clips()
                 .iter()
                 .map(|clip| ClipFacts { name: clip.name.clone(), seconds: clip.duration_secs })
                 .collect(),
+            clip_of_all: scene.clip_of_all.map(|clip| scene.clips[clip].name.clone()),
             lights,
             scenes: scene.scene_names.clone(),
             shown_scene: scene.shown_scene,
@@ -129,6 +132,7 @@ impl Facts {
             format!("grid of {} cells of {} units, {} voxels in the caches", self.grid, self.span, self.voxels),
         ];
         lines.extend(self.clips.iter().map(|clip| format!("clip \"{}\", {:.3} s", clip.name, clip.seconds)));
+        lines.extend(self.clip_of_all.iter().map(|name| format!("clip \"{name}\", of all these")));
         lines.extend(self.lights.iter().map(LightFacts::text));
         if !self.extensions.is_empty() {
             lines.push(format!("extensions: {}", self.extensions.join(", ")));

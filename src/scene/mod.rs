@@ -18,6 +18,7 @@ pub mod polar;
 pub mod pose;
 pub mod skin;
 mod stretch;
+mod together;
 pub mod warning;
 
 use std::collections::HashSet;
@@ -54,7 +55,10 @@ pub struct Scene {
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
     pub skins: Vec<Skin>,
+    /// Of the file; perhaps behind them all of them at once.
     pub clips: Vec<Clip>,
+    /// Which of the clips is all others at once.
+    pub clip_of_all: Option<usize>,
     pub cameras: Vec<SceneCamera>,
     pub lights: Vec<Light>,
     /// Names of the scenes the file holds, and which of them is shown; `None`: all nodes are.

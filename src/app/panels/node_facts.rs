@@ -96,7 +96,7 @@ fn carried_ui(ui: &mut Ui, panel: TreePanel<'_>, node: usize) {
         let text = format!("{}, {} {}", light.kind.name(), light.intensity, short_unit(light.kind));
         fact(ui, "Light", &text, "As it is in the file; the Light panel can change it.");
     }
-    let clips = scene.clips.iter().filter_map(|clip| {
+    let clips = scene.own_clips().iter().filter_map(|clip| {
         let properties: Vec<&str> = clip
             .channels
             .iter()

@@ -107,7 +107,7 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
         );
         fact(ui, "Objects", &objects, "Nodes with a mesh, by how they move.");
         fact(ui, "Triangles", &grouped(triangles as u64), "Of all objects; instances count each.");
-        let counts = [(scene.skins.len(), "skin"), (scene.joint_count(), "joint"), (scene.clips.len(), "clip")];
+        let counts = [(scene.skins.len(), "skin"), (scene.joint_count(), "joint"), (scene.own_clips().len(), "clip")];
         let motion =
             counts.map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" })).join(", ");
         fact(ui, "Motion", &motion, "Skeletons that move meshes, and animations of the file.");

@@ -125,7 +125,7 @@ fn read(
     let materials = material::load(&source, &mut textures, &mut warnings)?;
     let mut warnings = readable(warnings);
     subjects::find(&mut warnings, root, &hierarchy.rank);
-    Ok(Scene {
+    let mut scene = Scene {
         name: String::new(),
         source: None,
         digest: Some(Digest::of_file(bytes)),
@@ -135,6 +135,7 @@ fn read(
         textures: textures.list,
         skins,
         clips,
+        clip_of_all: None,
         cameras,
         lights,
         scene_names: scene_names(root),
@@ -142,7 +143,9 @@ fn read(
         memory_bytes: budget.spent_bytes(),
         extensions: root.extensions_used.clone(),
         warnings,
-    })
+    };
+    scene.add_clip_of_all();
+    Ok(scene)
 }
 
 /// A line each, and not more than a person reads.
