@@ -13,7 +13,9 @@ impl App {
         match command {
             Command::Open(path) => self.open(ctx, path, None),
             Command::ShowScene(number) => self.show_another_scene(ctx, number),
-            Command::ChooseFile => self.desk.choose_file(ctx),
+            Command::ChooseFile => self.desk.choose_file(ctx, self.host.choose_file),
+            Command::AskForPath => self.ask_for_path(ctx),
+            Command::Forget(path) => self.desk.forget(&path),
             Command::CancelLoading => self.cancel_loading(),
             Command::Discretize(discretization) => self.settings.method.discretization = discretization,
             Command::Fit(fit) => self.settings.shot.fit = fit,
@@ -62,6 +64,7 @@ impl App {
             Command::SaveScreenshot => self.screenshots.want(Format::Picture),
             Command::SaveLight => self.screenshots.want(Format::Light),
             Command::ClearLog => self.journal.clear(),
+            Command::Copy(text) => ctx.copy_text(text),
         }
     }
 

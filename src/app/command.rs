@@ -16,6 +16,10 @@ pub enum Command {
     ShowScene(usize),
     /// Lets the desktop's dialog choose one.
     ChooseFile,
+    /// Asks for a path in its field: there is no dialog.
+    AskForPath,
+    /// Takes a scene out of the recent ones.
+    Forget(PathBuf),
     CancelLoading,
     Discretize(Discretization),
     /// Something else is enclosed by the grid.
@@ -59,4 +63,6 @@ pub enum Command {
     /// The light of the surfaces that are shown, as it is.
     SaveLight,
     ClearLog,
+    /// Into the clipboard.
+    Copy(String),
 }

@@ -2,17 +2,18 @@
 
 use std::time::Instant;
 
-use egui::{Panel, ScrollArea, TextEdit, Ui};
+use egui::{Panel, ScrollArea, Ui};
 
 use super::command::Command;
 use super::panels::cones::ConesPanel;
 use super::panels::discretization::DiscretizationPanel;
 use super::panels::light::LightPanel;
+use super::panels::path_field::path_field;
 use super::panels::reference::ReferencePanel;
 use super::panels::top_bar::TopBar;
 use super::panels::tree_row::TreePanel;
 use super::panels::view::{CameraChoice, ViewPanel};
-use super::panels::{self, section};
+use super::panels::{self, section, section_revealed};
 use super::{App, shortcuts, theme};
 use crate::lights::Shines;
 use crate::settings::{ConeTracing, View};
@@ -34,14 +35,26 @@ impl eframe::App for App {
         if let Some(time_secs) = self.playback.advance(clock_secs, self.clip_secs()) {
             self.settings.shot.motion.time_secs = time_secs;
         }
-        egui::CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, clock_secs));
+        let picture = egui::CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, clock_secs)).response.rect;
         self.note_for_undo(clock_secs);
-        self.journal.show_toasts(&ctx);
+        if self.journal.toasts_ui(&ctx, picture) {
+            self.show_log(&ctx);
+        }
         if self.wake_again(&ctx, clock_secs) {
             self.latency.continues(started);
         }
         // Lost on the way: what was painted must not be uploaded.
         self.close_if_lost(&ctx);
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        if self.host.remembered_in.is_some() {
+            self.write_down(storage);
+        }
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        self.host.remembered_in.is_some()
     }
 
     fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
@@ -52,6 +65,12 @@ impl eframe::App for App {
 impl App {
     fn apply_all(&mut self, ctx: &egui::Context, commands: Vec<Command>, clock_secs: f64) {
         commands.into_iter().for_each(|command| self.apply(ctx, command, clock_secs));
+    }
+
+    fn show_log(&mut self, ctx: &egui::Context) {
+        self.desk.unfolded.measurements = true;
+        self.desk.revealed = Some(panels::LOG);
+        ctx.request_repaint();
     }
 
     fn panels_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
@@ -115,9 +134,10 @@ impl App {
     fn controls_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let settings = &self.settings;
         let grid = self.scene.as_ref().map(|ready| &ready.prepared.grid);
-        let mut commands = section(ui, "Scene", true, |ui| {
+        let asks_for_path = self.desk.revealed == Some(panels::SCENE);
+        let mut commands = section_revealed(ui, panels::SCENE, true, &mut self.desk.revealed, |ui| {
             let scene = self.scene.as_ref().map(|ready| &*ready.prepared);
-            panels::scene::ui(ui, scene, &mut self.desk.path, &self.desk.recent)
+            panels::scene::ui(ui, scene, (&mut self.desk.path, asks_for_path), &self.desk.recent)
         });
         commands.extend(section(ui, "Discretization", true, |ui| {
             panels::discretization::ui(
@@ -156,7 +176,7 @@ impl App {
         };
         let mut commands = panels::view::ui(ui, panel);
         panels::control(ui, "Save to", "Folder that screenshots are written to.", |ui| {
-            ui.add(TextEdit::singleline(&mut self.screenshots.folder).desired_width(f32::INFINITY))
+            path_field(ui, "screenshots folder", &mut self.screenshots.folder, ui.available_width())
         });
         if settings.method.look.view == View::Surfaces {
             let tip = "Saves what is shown as OpenEXR: linear, unclamped, in nits, lux or scene units.";
@@ -243,7 +263,8 @@ impl App {
             panels::memory::ui(ui, &stage.engine.memory());
             Vec::new()
         }));
-        commands.extend(section(ui, "Log", false, |ui| panels::log::ui(ui, self.journal.entries())));
+        let log = |ui: &mut Ui| panels::log::ui(ui, self.journal.entries());
+        commands.extend(section_revealed(ui, panels::LOG, false, &mut self.desk.revealed, log));
         commands
     }
 }

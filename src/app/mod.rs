@@ -15,9 +15,11 @@ mod command;
 mod desk;
 mod device;
 mod exact_job;
+mod folders;
 mod follow;
 mod history;
 mod inspector;
+mod host;
 mod journal;
 mod latency;
 mod layout;
@@ -32,6 +34,7 @@ mod panels;
 mod picture;
 mod playback;
 mod reference;
+mod remembered;
 mod rescue;
 mod run;
 mod scale_ticks;
@@ -44,6 +47,7 @@ mod stage;
 mod start;
 mod steady;
 mod theme;
+mod toasts;
 mod undo;
 mod viewport;
 
@@ -52,6 +56,7 @@ use std::sync::Arc;
 
 use self::desk::Desk;
 use self::exact_job::ExactJob;
+pub use self::host::{Choice, Host};
 use self::journal::{Journal, Severity};
 pub use self::latency::Latency;
 use self::loader::{Loader, Ready};
@@ -73,6 +78,9 @@ use crate::prepare::Prepared;
 use crate::scene::Clip;
 use crate::settings::{NodeNames, Settings};
 use crate::stages::SHADERS;
+
+/// Of the program, where the desktop asks for it.
+const NAME: &str = "Octolume";
 
 /// Why a window has no app.
 type NoApp = Box<dyn std::error::Error + Send + Sync>;
@@ -102,6 +110,7 @@ pub struct App {
     moved_at_secs: Option<f64>,
     rescue: Rescue,
     exposure: SteadyExposure,
+    host: Host,
 }
 
 impl App {
@@ -139,19 +148,21 @@ impl App {
             loader: Loader::new(start.opening, start.disk, room),
             exact: ExactJob::default(),
             viewport: Viewport::default(),
-            screenshots: Screenshots::default(),
+            screenshots: Screenshots::new(start.host.screenshots.clone()),
             desk: Desk::default(),
             undo: Undo::default(),
             restored: None,
             names: start.names,
             view_px: [1, 1],
-            journal: Journal::default(),
+            journal: Journal::new(start.host.tell_error),
             latency: Latency::new(render.device.clone()),
             render,
             moved_at_secs: None,
             rescue: Rescue::default(),
             exposure: SteadyExposure::default(),
+            host: start.host,
         };
+        app.remember(context.storage);
         gpu.warnings().into_iter().for_each(|warning| app.journal.tell(Severity::Warning, warning));
         Ok(app)
     }
@@ -189,7 +200,11 @@ impl App {
     /// Nothing is being opened, voxelized, built, drawn, traced or compared.
     pub fn is_settled(&self) -> bool {
         let loading = self.loader.progress().is_some() || self.exact.is_behind();
-        !loading && self.stage.working().is_none() && !self.screenshots.is_busy() && !self.desk.is_busy()
+        !loading
+            && self.stage.working().is_none()
+            && !self.screenshots.is_busy()
+            && !self.desk.is_busy()
+            && !self.desk.has_dialog()
     }
 
     fn prepared(&self) -> Option<&Arc<Prepared>> {

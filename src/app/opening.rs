@@ -29,6 +29,15 @@ impl App {
         self.desk.path = path.display().to_string();
     }
 
+    /// Where the desktop has no file dialog.
+    pub(super) fn ask_for_path(&mut self, ctx: &egui::Context) {
+        let sentence = "There is no file dialog here: type a path and press Enter, or drop a file on the window.";
+        self.journal.tell(Severity::Warning, sentence);
+        self.desk.unfolded.controls = true;
+        self.desk.revealed = Some(panels::SCENE);
+        ctx.request_repaint();
+    }
+
     /// Opens the file again, at another of its scenes.
     pub(super) fn show_another_scene(&mut self, ctx: &egui::Context, number: usize) {
         let source = self.prepared().and_then(|prepared| prepared.scene.source.clone());
@@ -68,7 +77,7 @@ impl App {
         }
         for written in self.screenshots.poll() {
             match written {
-                Ok(file) => self.journal.tell(Severity::Info, format!("Saved {}", file.display())),
+                Ok(file) => self.journal.tell_saved(file),
                 Err(cause) => self.journal.tell(Severity::Error, cause),
             }
         }
@@ -152,9 +161,11 @@ impl App {
     pub(super) fn name_window(&mut self, ctx: &egui::Context, prepared: &Prepared) {
         let name = &prepared.scene.name;
         ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("Octolume — {name}")));
-        let source = prepared.scene.source.clone().unwrap_or_else(|| PathBuf::from(name));
-        self.desk.path = source.display().to_string();
-        self.desk.remember(source);
+        let source = prepared.scene.source.clone();
+        self.desk.path = source.as_ref().map_or_else(|| name.clone(), |source| source.display().to_string());
+        // The next window may be opened in another folder.
+        let source = source.map(|source| std::path::absolute(&source).unwrap_or(source));
+        self.desk.remember(source.unwrap_or_else(|| PathBuf::from(name)));
     }
 
     /// Takes a camera of the file, if it has this one.

@@ -1,6 +1,6 @@
 //! The middle of the window: which picture is wanted now, how coarse it may be, and what lies over it.
 
-use egui::{Align2, FontId, Rect, Ui, vec2};
+use egui::{Align2, Color32, FontId, Painter, Rect, Ui, vec2};
 
 use super::command::Command;
 use super::exact_job::Posed;
@@ -172,17 +172,17 @@ impl App {
     fn overlay_ui(&self, ui: &Ui, rect: Rect, size_px: [u32; 2], full_px: [u32; 2]) {
         let painter = ui.painter_at(rect);
         if let Some(error) = self.stage.error() {
-            painter.text(rect.center(), Align2::CENTER_CENTER, error, FontId::proportional(13.0), theme::ERROR);
+            in_the_middle(&painter, rect, error, theme::ERROR);
         } else if self.scene.is_none() {
             let text = if self.loader.progress().is_some() { "Opening…" } else { "No scene is open" };
-            painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(15.0), theme::WEAK);
+            in_the_middle(&painter, rect, text, theme::WEAK);
         } else if self.stage.engine.shows_nothing() {
             let text = if self.settings.shot.visibility.shows_all() {
                 "Nothing of this scene is in the grid"
             } else {
                 "What is shown is not in the grid; Alt+H shows everything"
             };
-            painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(15.0), theme::WEAK);
+            in_the_middle(&painter, rect, text, theme::WEAK);
         } else if self.ghost_is_on_its_way() {
             let text = "The ghost of this pose is on its way";
             painter.text(
@@ -216,7 +216,7 @@ impl App {
     }
 
     /// The node that is looked at, over the picture, where its pointers are wanted.
-    fn paint_node(&self, painter: &egui::Painter, rect: Rect, full_px: [u32; 2]) {
+    fn paint_node(&self, painter: &Painter, rect: Rect, full_px: [u32; 2]) {
         let inspector = &self.desk.inspector;
         let is_wanted = inspector.is_open && self.settings.method.look.pointers && !full_px.contains(&0);
         let facts = inspector.facts().flatten().filter(|_| is_wanted);
@@ -226,4 +226,10 @@ impl App {
             node_overlay::paint(painter, &projection, facts);
         }
     }
+}
+
+/// A text over the picture, within its width.
+fn in_the_middle(painter: &Painter, rect: Rect, text: &str, color: Color32) {
+    let galley = painter.layout(text.to_owned(), FontId::proportional(15.0), color, (rect.width() - 40.0).max(0.0));
+    painter.galley(Align2::CENTER_CENTER.align_size_within_rect(galley.size(), rect).min, galley, color);
 }

@@ -1,6 +1,6 @@
 //! Opens the window, and opens it again where its GPU is lost.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
@@ -21,13 +21,14 @@ pub fn run(scene: &Path, start: Start, adapter: Option<&str>) -> anyhow::Result<
     }
     let rescue = Rescue::default();
     let mut opened = Instant::now();
-    open_window(adapter, &rescue, |context| App::new(context, scene, start))?;
+    let remembered_in = start.host.remembered_in.clone();
+    open_window(adapter, &rescue, &remembered_in, |context| App::new(context, scene, start))?;
     while let Some(kept) = rescue.take() {
         if opened.elapsed() < WORTH_ANOTHER_DEVICE {
             return Err(anyhow!("{}", kept.cause));
         }
         opened = Instant::now();
-        open_window(adapter, &rescue, |context| App::again(context, kept))?;
+        open_window(adapter, &rescue, &remembered_in, |context| App::again(context, kept))?;
     }
     Ok(())
 }
@@ -35,11 +36,15 @@ pub fn run(scene: &Path, start: Start, adapter: Option<&str>) -> anyhow::Result<
 fn open_window(
     adapter: Option<&str>,
     rescue: &Rescue,
+    remembered_in: &Option<PathBuf>,
     app: impl FnOnce(&eframe::CreationContext<'_>) -> Result<App, NoApp>,
 ) -> anyhow::Result<()> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default().with_inner_size([1440.0, 900.0]).with_min_inner_size([640.0, 400.0]),
         renderer: eframe::Renderer::Wgpu,
+        // Where nothing is remembered, there is no file, and nothing is saved.
+        persistence_path: Some(remembered_in.clone().unwrap_or_default()),
+        persist_window: remembered_in.is_some(),
         wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: device::setup(adapter), ..Default::default() },
         ..Default::default()
     };
@@ -48,7 +53,7 @@ fn open_window(
         app.rescue = rescue.clone();
         Ok(Box::new(app))
     });
-    eframe::run_native("Octolume", options, create).map_err(|error| match error {
+    eframe::run_native(super::NAME, options, create).map_err(|error| match error {
         eframe::Error::WinitEventLoop(_) => anyhow!("the display cannot be opened; the subcommands work without one"),
         error => anyhow!("no window can be opened: {error}"),
     })
@@ -65,7 +70,8 @@ impl App {
         }
         let cause = "the GPU was lost".to_owned();
         let (opening, disk) = self.loader.choices();
-        let start = Start { settings: self.settings.clone(), names: NodeNames::default(), opening, disk };
+        let (settings, host) = (self.settings.clone(), self.host.clone());
+        let start = Start { settings, names: NodeNames::default(), opening, disk, host };
         self.rescue.leave(Kept { start, scene: self.scene.clone(), cause });
         ctx.graphics_mut(|painted| *painted = Default::default());
         ctx.send_viewport_cmd(egui::ViewportCommand::Close);

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use image::RgbaImage;
 
 use super::background::{Background, Outcome};
+use super::folders;
 use crate::export;
 use crate::settings::Settings;
 
@@ -28,19 +29,19 @@ pub enum Content {
 }
 
 pub struct Screenshots {
-    /// Where they go, as typed; the current folder at first.
+    /// Where they go, as typed.
     pub folder: String,
+    /// Where they go at first; it is made when the first one does.
+    usual: PathBuf,
     wanted: Option<Format>,
     writing: Vec<Background<Result<PathBuf, String>>>,
 }
 
-impl Default for Screenshots {
-    fn default() -> Self {
-        Self { folder: ".".to_owned(), wanted: None, writing: Vec::new() }
-    }
-}
-
 impl Screenshots {
+    pub fn new(usual: PathBuf) -> Self {
+        Self { folder: usual.display().to_string(), usual, wanted: None, writing: Vec::new() }
+    }
+
     pub fn want(&mut self, format: Format) {
         self.wanted = Some(format);
     }
@@ -56,8 +57,16 @@ impl Screenshots {
 
     pub fn save(&mut self, ctx: &egui::Context, content: Content, scene: &str) {
         self.wanted = None;
-        let (folder, scene) = (PathBuf::from(self.folder.trim()), scene.to_owned());
-        self.writing.push(Background::start(ctx, move |_| write(&folder, &scene, &content)));
+        let (typed, scene) = (folders::typed(&self.folder), scene.to_owned());
+        let is_usual = typed == self.usual;
+        let folder = std::path::absolute(&typed).unwrap_or(typed);
+        self.writing.push(Background::start(ctx, move |_| {
+            if is_usual {
+                std::fs::create_dir_all(&folder)
+                    .map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
+            }
+            write(&folder, &scene, &content)
+        }));
     }
 
     /// A picture is waited for or being written.

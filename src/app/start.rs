@@ -1,5 +1,6 @@
 //! What a window is opened with.
 
+use super::host::Host;
 use crate::disk_cache::DiskCache;
 use crate::scene::load::OpenOptions;
 use crate::settings::{NodeNames, Settings};
@@ -14,4 +15,5 @@ pub struct Start {
     pub opening: OpenOptions,
     /// Where voxels are kept; `None`: nowhere.
     pub disk: Option<DiskCache>,
+    pub host: Host,
 }

@@ -44,6 +44,9 @@ pub struct Arguments {
     /// A .gltf or .glb file, or the name of a built-in scene
     #[arg(default_value = session::DEFAULT_SCENE)]
     scene: std::path::PathBuf,
+    /// Opens the window as on its first start, and remembers nothing of it
+    #[arg(long)]
+    fresh: bool,
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
@@ -68,7 +71,7 @@ enum Command {
 /// Does what the arguments say.
 pub fn run(arguments: Arguments) -> anyhow::Result<()> {
     match arguments.command {
-        None => window::run(&arguments.scene, &arguments.common, &arguments.moment),
+        None => window::run(&arguments.scene, arguments.fresh, &arguments.common, &arguments.moment),
         Some(Command::Render(render)) => render.run(),
         Some(Command::Info(info)) => info.run(),
         Some(Command::Voxels(voxels)) => voxels.run(),

@@ -115,9 +115,11 @@ trap 'kill "${window:-}" "$server" 2>/dev/null; wait 2>/dev/null || true' EXIT
 for _ in {1..50}; do [[ -s $folder/display ]] && break; sleep 0.1; done
 DISPLAY=:$(<"$folder/display")
 export DISPLAY
-rm "$folder/display" "$folder"/*.png 2>/dev/null || true
+rm "$folder/display" "$folder"/*.png "$folder"/Octolume/*.png 2>/dev/null || true
 
-(cd "$folder" && exec "$program" "$scene") >"$folder/program.log" 2>&1 &
+# Screenshots go where the desktop says that pictures are; an earlier window leaves no trace in this one.
+echo "XDG_PICTURES_DIR=\"$folder\"" >"$folder/user-dirs.dirs"
+(cd "$folder" && XDG_CONFIG_HOME=$folder exec "$program" --fresh "$scene") >"$folder/program.log" 2>&1 &
 window=$!
 id=$(timeout "$PATIENCE_SECS" xdotool search --sync --onlyvisible --name '^Octolume' | head -n 1) || fail "the window did not open"
 # There is no window manager that would give it the keyboard.
@@ -169,7 +171,7 @@ click "$ABOVE"; photograph_at_rest 32-above; must_change 31-node 32-above
 click "$FIRST_CHILD"; photograph_at_rest 33-child; must_change 32-above 33-child
 
 click "$SCREENSHOT"; sleep 1; xdotool key ctrl+s; photograph_at_rest 34-saved
-shots=("$folder"/octolume-*.png)
+shots=("$folder"/Octolume/octolume-*.png)
 ((${#shots[@]} == 2)) || fail "two screenshots were asked for, there are ${#shots[@]}"
 for shot in "${shots[@]}"; do
     (($(identify -format %k "$shot") > 20)) || fail "$shot is uniform"

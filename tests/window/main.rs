@@ -14,11 +14,13 @@ mod files;
 mod lights;
 mod measure;
 mod node;
+mod notes;
 mod opening;
 mod playing;
 #[path = "../suite/real_scenes.rs"]
 mod real_scenes;
 mod reference;
+mod remembered;
 mod rig;
 mod surfaces;
 mod tree;

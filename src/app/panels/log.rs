@@ -13,14 +13,21 @@ pub fn ui<'a>(ui: &mut Ui, entries: impl DoubleEndedIterator<Item = &'a Entry>) 
         nothing(ui, "Nothing yet.");
         return Vec::new();
     }
-    let clear = ui.small_button("Clear log").on_hover_text("Forgets all lines.").clicked();
+    let mut commands = Vec::new();
+    if ui.small_button("Clear log").on_hover_text("Forgets all lines.").clicked() {
+        commands.push(Command::ClearLog);
+    }
     for entry in entries {
         ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new(clock(entry.at_secs)).color(theme::WEAK).monospace());
             ui.label(RichText::new(&entry.text).color(entry.severity.color()));
+            let file = entry.file.as_ref().map(|file| file.display().to_string());
+            if let Some(file) = file.filter(|_| ui.small_button("Copy path").clicked()) {
+                commands.push(Command::Copy(file));
+            }
         });
     }
-    if clear { vec![Command::ClearLog] } else { Vec::new() }
+    commands
 }
 
 /// Minutes and seconds since the window opened.

@@ -14,6 +14,7 @@ pub mod memory;
 pub mod node;
 mod node_facts;
 pub mod octree;
+pub mod path_field;
 pub mod plan;
 pub mod reference;
 pub mod scene;
@@ -29,7 +30,9 @@ pub mod view;
 
 use std::ops::RangeInclusive;
 
-use egui::{CollapsingHeader, ComboBox, DragValue, Response, RichText, Slider, SliderClamping, Ui, WidgetInfo, vec2};
+use egui::{
+    Align, CollapsingHeader, ComboBox, DragValue, Response, RichText, Slider, SliderClamping, Ui, WidgetInfo, vec2,
+};
 
 use super::command::Command;
 use super::theme;
@@ -39,16 +42,41 @@ const LIST_HEIGHT: f32 = 400.0;
 /// Width of the names left of the controls.
 const NAME_WIDTH: f32 = 76.0;
 
+/// Sections that the window unfolds by itself.
+pub const SCENE: &str = "Scene";
+pub const LOG: &str = "Log";
+
 /// A part of a side panel that can be folded away.
 pub fn section(ui: &mut Ui, title: &str, open: bool, body: impl FnOnce(&mut Ui) -> Vec<Command>) -> Vec<Command> {
+    section_revealed(ui, title, open, &mut None, body)
+}
+
+/// The same of one that is unfolded and scrolled to while `revealed` names it, which ends when it is.
+pub fn section_revealed(
+    ui: &mut Ui,
+    title: &str,
+    open: bool,
+    revealed: &mut Option<&str>,
+    body: impl FnOnce(&mut Ui) -> Vec<Command>,
+) -> Vec<Command> {
+    let is_revealed = *revealed == Some(title);
     let header = RichText::new(title).color(theme::STRONG).size(13.0);
-    let shown = CollapsingHeader::new(header).id_salt(title).default_open(open).show_unindented(ui, |ui| {
+    let shown = CollapsingHeader::new(header).id_salt(title).default_open(open).open(is_revealed.then_some(true));
+    let shown = shown.show_unindented(ui, |ui| {
         ui.add_space(2.0);
         let commands = body(ui);
         ui.add_space(6.0);
         commands
     });
     ui.separator();
+    if is_revealed {
+        shown.header_response.scroll_to_me(Some(Align::TOP));
+        if shown.fully_open() {
+            *revealed = None;
+        } else {
+            ui.ctx().request_repaint();
+        }
+    }
     shown.body_returned.unwrap_or_default()
 }
 

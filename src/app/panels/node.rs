@@ -10,6 +10,11 @@ use crate::app::theme;
 use crate::engine::{NodeAddress, NodeFacts, StoredNode};
 use crate::settings::Look;
 
+/// Where there is nothing.
+const NONE: &str = "none";
+/// Where there may be something, and the methods that are set do not keep it.
+const NOT_STORED: &str = "not stored";
+
 pub fn ui(ui: &mut Ui, inspector: &Inspector, look: &Look) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.horizontal(|ui| {
@@ -55,10 +60,13 @@ fn facts_ui(ui: &mut Ui, facts: &NodeFacts) -> Option<Command> {
         };
         fact(ui, "Block", &block, "Sparse nodes are stored in blocks of the eight children of a node.");
         payload_ui(ui, facts);
-        let mut link = |ui: &mut Ui, name, node: Option<StoredNode>| chosen = chosen.or(link_ui(ui, name, node));
-        link(ui, "First child", facts.first_child);
+        let ahead_unless = if facts.has_pointers { NONE } else { NOT_STORED };
+        let mut link = |ui: &mut Ui, name, node: Option<StoredNode>, unless| {
+            chosen = chosen.or(link_ui(ui, name, node, unless));
+        };
+        link(ui, "First child", facts.first_child, NONE);
         for (name, ahead) in ["Ahead x", "Ahead y", "Ahead z"].into_iter().zip(facts.forward) {
-            link(ui, name, ahead);
+            link(ui, name, ahead, ahead_unless);
         }
         chosen = chosen.or(parent_ui(ui, node.address.parent()));
     });
@@ -76,27 +84,27 @@ fn payload_ui(ui: &mut Ui, facts: &NodeFacts) {
     fact(ui, "Occupancy", &format!("{:.6}", facts.occupancy), "The occupied share of its volume.");
     fact(ui, "Albedo", &vector(facts.albedo), "Linear red, green, blue: the mean of what is in it.");
     fact(ui, "Normal", &vector(facts.normal), "Mean: short where normals disagree.");
-    if let Some(radiance) = facts.radiance {
-        let text = format!("{} nits", radiance.map(short).join("  "));
-        fact(ui, "Radiance", &text, "Linear red, green, blue of the light that leaves it.");
-    }
+    let radiance = facts.radiance.map(|radiance| format!("{} nits", radiance.map(short).join("  ")));
+    let tip = "Linear red, green, blue of the light that leaves it; stored while light is shown.";
+    fact(ui, "Radiance", radiance.as_deref().unwrap_or(NOT_STORED), tip);
 }
 
-fn link_ui(ui: &mut Ui, name: &str, node: Option<StoredNode>) -> Option<NodeAddress> {
+/// `unless`: said where there is no node to lead to.
+fn link_ui(ui: &mut Ui, name: &str, node: Option<StoredNode>, unless: &str) -> Option<NodeAddress> {
     let text = node.map(|node| {
         let [x, y, z] = node.address.cell;
         let dummy = if node.is_dummy { ", a dummy" } else { "" };
         format!("{} at {x},{y},{z}{dummy}", grouped(node.index.into()))
     });
-    row_ui(ui, name, text).then_some(node?.address)
+    row_ui(ui, name, text, unless).then_some(node?.address)
 }
 
 fn parent_ui(ui: &mut Ui, parent: Option<NodeAddress>) -> Option<NodeAddress> {
-    row_ui(ui, "Above", parent.map(|parent| parent.to_string())).then_some(parent?)
+    row_ui(ui, "Above", parent.map(|parent| parent.to_string()), NONE).then_some(parent?)
 }
 
 /// A name and a link; whether it was clicked.
-fn row_ui(ui: &mut Ui, name: &str, text: Option<String>) -> bool {
+fn row_ui(ui: &mut Ui, name: &str, text: Option<String>, unless: &str) -> bool {
     ui.label(RichText::new(name).color(theme::WEAK));
     let clicked = match text {
         Some(text) => {
@@ -105,7 +113,7 @@ fn row_ui(ui: &mut Ui, name: &str, text: Option<String>) -> bool {
             link.on_hover_text("Looks at that node.").clicked()
         }
         None => {
-            ui.label(RichText::new("none").color(theme::WEAK));
+            ui.label(RichText::new(unless).color(theme::WEAK));
             false
         }
     };

@@ -1,18 +1,20 @@
 //! Opening scenes, and what the open one holds.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use egui::{ComboBox, Grid, RichText, TextEdit, Ui};
+use egui::{ComboBox, Grid, RichText, Ui, WidgetInfo};
 
+use super::path_field::path_field;
 use super::{bytes, fact, grouped, nothing};
 use crate::app::command::Command;
 use crate::app::loader::file_name;
-use crate::app::theme;
+use crate::app::{folders, theme};
 use crate::data::voxel_cache::CacheVoxel;
 use crate::prepare::Prepared;
 use crate::scene::{Motion, Warning, builtin};
 
-pub fn ui(ui: &mut Ui, scene: Option<&Prepared>, path: &mut String, recent: &[PathBuf]) -> Vec<Command> {
+/// `path`: what is typed, and whether its field asks for it.
+pub fn ui(ui: &mut Ui, scene: Option<&Prepared>, path: (&mut String, bool), recent: &[PathBuf]) -> Vec<Command> {
     let mut commands = open_ui(ui, path, recent);
     match scene {
         Some(prepared) => {
@@ -25,7 +27,7 @@ pub fn ui(ui: &mut Ui, scene: Option<&Prepared>, path: &mut String, recent: &[Pa
     commands
 }
 
-fn open_ui(ui: &mut Ui, path: &mut String, recent: &[PathBuf]) -> Vec<Command> {
+fn open_ui(ui: &mut Ui, (path, asks): (&mut String, bool), recent: &[PathBuf]) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.horizontal(|ui| {
         if ui.button("Choose…").on_hover_text("Opens the desktop's file dialog (Ctrl+O).").clicked() {
@@ -36,12 +38,15 @@ fn open_ui(ui: &mut Ui, path: &mut String, recent: &[PathBuf]) -> Vec<Command> {
     ui.horizontal(|ui| {
         let name = ui.label(RichText::new("Path").color(theme::WEAK));
         let width = ui.available_width() - 56.0;
-        let field = TextEdit::singleline(path).hint_text("a .gltf or .glb file").desired_width(width);
-        let entered = ui.add(field).labelled_by(name.id).on_hover_text("Path of a scene; Enter opens it.");
+        let entered = path_field(ui, "scene path", path, width).labelled_by(name.id);
+        let entered = entered.on_hover_text("Path of a .gltf or .glb file, or of a picture of one; Enter opens it.");
+        if asks {
+            entered.request_focus();
+        }
         let enter = entered.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let open = ui.add_enabled(!path.trim().is_empty(), egui::Button::new("Open"));
         if open.on_hover_text("Opens the file at this path.").clicked() || enter && !path.trim().is_empty() {
-            commands.push(Command::Open(PathBuf::from(path.trim())));
+            commands.push(Command::Open(folders::typed(path)));
         }
     });
     commands
@@ -51,9 +56,7 @@ fn recent_ui(ui: &mut Ui, recent: &[PathBuf]) -> Vec<Command> {
     let mut commands = Vec::new();
     let menu = ui.menu_button("Recent", |ui| {
         for path in recent {
-            if ui.button(file_name(path)).on_hover_text(path.display().to_string()).clicked() {
-                commands.push(Command::Open(path.clone()));
-            }
+            commands.extend(recent_row_ui(ui, path));
         }
         ui.separator();
         for name in builtin::NAMES {
@@ -62,8 +65,24 @@ fn recent_ui(ui: &mut Ui, recent: &[PathBuf]) -> Vec<Command> {
             }
         }
     });
-    menu.response.on_hover_text("Scenes opened since the start, and the built-in ones.");
+    menu.response.on_hover_text("Scenes opened last, and the built-in ones.");
     commands
+}
+
+/// A scene that was open, and a way to take it off the list.
+fn recent_row_ui(ui: &mut Ui, path: &Path) -> Option<Command> {
+    let (name, whole) = (file_name(path), path.display().to_string());
+    let row = ui.horizontal(|ui| {
+        let forget = ui.small_button("×").on_hover_text("Takes it off the list.");
+        forget.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, format!("Forget {name}")));
+        let open = ui.button(&name).on_hover_text(whole);
+        (open.clicked(), forget.clicked())
+    });
+    match row.inner {
+        (true, _) => Some(Command::Open(path.to_owned())),
+        (_, true) => Some(Command::Forget(path.to_owned())),
+        _ => None,
+    }
 }
 
 /// Which scene of the file is shown, where it holds several.
