@@ -47,6 +47,7 @@ impl Toasts {
             return false;
         }
         let mut clicked = false;
+        let before = self.shown.len();
         let width = (picture.width() - 2.0 * MARGIN.x).clamp(MIN_WIDTH, MAX_WIDTH);
         let area = Area::new(Id::unique("notes")).order(Order::Foreground).pivot(Align2::RIGHT_BOTTOM);
         area.fixed_pos(picture.right_bottom() - MARGIN).show(ctx, |ui| {
@@ -63,6 +64,10 @@ impl Toasts {
                 });
             });
         });
+        if self.shown.len() < before {
+            // The others take their place.
+            ctx.request_repaint();
+        }
         let next = self.shown.iter().filter_map(|toast| toast.until_secs).reduce(f64::min);
         if let Some(until) = next {
             ctx.request_repaint_after(Duration::from_secs_f64((until - now).max(0.0)));

@@ -68,9 +68,12 @@ fn pointers_are_followed_and_drawn() {
     let middle = window.view_rect().center();
     alt_click(&mut window, middle);
     assert!(window.0.query_by_role_and_label(egui::Role::Link, "Ahead x").is_none(), "no pointers are stored");
+    assert!(window.count("not stored") >= 2, "pointers that leave the block, and radiance");
+    assert_eq!(window.count("none"), 2, "the scene has no warnings, and a leaf no child");
     let plain = window.view();
     window.click("Draw pointers");
     assert!(window.app().settings().method.look.pointers);
+    assert_eq!(window.count("not stored"), 1, "radiance, as no light is shown");
     assert_changed(&plain, &window.view(), "drawing pointers");
     let (level, cell) = place(&window);
     window.click("Above");

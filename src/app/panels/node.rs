@@ -10,10 +10,13 @@ use crate::app::theme;
 use crate::engine::{NodeAddress, NodeFacts, StoredNode};
 use crate::settings::Look;
 
-/// Where there is nothing.
-const NONE: &str = "none";
-/// Where there may be something, and the methods that are set do not keep it.
-const NOT_STORED: &str = "not stored";
+/// Why there is no value: what is said instead, and its tip.
+#[derive(Clone, Copy)]
+struct Absent(&'static str, &'static str);
+
+const NONE: Absent = Absent("none", "Nothing is there.");
+const NO_POINTERS: Absent = Absent("not stored", "\"Draw pointers\" stores it.");
+const NO_LIGHT: Absent = Absent("not stored", "Light is stored while it is shown.");
 
 pub fn ui(ui: &mut Ui, inspector: &Inspector, look: &Look) -> Vec<Command> {
     let mut commands = Vec::new();
@@ -60,7 +63,7 @@ fn facts_ui(ui: &mut Ui, facts: &NodeFacts) -> Option<Command> {
         };
         fact(ui, "Block", &block, "Sparse nodes are stored in blocks of the eight children of a node.");
         payload_ui(ui, facts);
-        let ahead_unless = if facts.has_pointers { NONE } else { NOT_STORED };
+        let ahead_unless = if facts.has_pointers { NONE } else { NO_POINTERS };
         let mut link = |ui: &mut Ui, name, node: Option<StoredNode>, unless| {
             chosen = chosen.or(link_ui(ui, name, node, unless));
         };
@@ -84,13 +87,17 @@ fn payload_ui(ui: &mut Ui, facts: &NodeFacts) {
     fact(ui, "Occupancy", &format!("{:.6}", facts.occupancy), "The occupied share of its volume.");
     fact(ui, "Albedo", &vector(facts.albedo), "Linear red, green, blue: the mean of what is in it.");
     fact(ui, "Normal", &vector(facts.normal), "Mean: short where normals disagree.");
-    let radiance = facts.radiance.map(|radiance| format!("{} nits", radiance.map(short).join("  ")));
-    let tip = "Linear red, green, blue of the light that leaves it; stored while light is shown.";
-    fact(ui, "Radiance", radiance.as_deref().unwrap_or(NOT_STORED), tip);
+    match facts.radiance {
+        Some(radiance) => {
+            let text = format!("{} nits", radiance.map(short).join("  "));
+            fact(ui, "Radiance", &text, "Linear red, green, blue of the light that leaves it.");
+        }
+        None => absent_ui(ui, "Radiance", NO_LIGHT),
+    }
 }
 
 /// `unless`: said where there is no node to lead to.
-fn link_ui(ui: &mut Ui, name: &str, node: Option<StoredNode>, unless: &str) -> Option<NodeAddress> {
+fn link_ui(ui: &mut Ui, name: &str, node: Option<StoredNode>, unless: Absent) -> Option<NodeAddress> {
     let text = node.map(|node| {
         let [x, y, z] = node.address.cell;
         let dummy = if node.is_dummy { ", a dummy" } else { "" };
@@ -104,19 +111,21 @@ fn parent_ui(ui: &mut Ui, parent: Option<NodeAddress>) -> Option<NodeAddress> {
 }
 
 /// A name and a link; whether it was clicked.
-fn row_ui(ui: &mut Ui, name: &str, text: Option<String>, unless: &str) -> bool {
-    ui.label(RichText::new(name).color(theme::WEAK));
-    let clicked = match text {
-        Some(text) => {
-            let link = ui.add(Link::new(text));
-            link.widget_info(|| WidgetInfo::labeled(Role::Link, true, name));
-            link.on_hover_text("Looks at that node.").clicked()
-        }
-        None => {
-            ui.label(RichText::new(unless).color(theme::WEAK));
-            false
-        }
+fn row_ui(ui: &mut Ui, name: &str, text: Option<String>, unless: Absent) -> bool {
+    let Some(text) = text else {
+        absent_ui(ui, name, unless);
+        return false;
     };
+    ui.label(RichText::new(name).color(theme::WEAK));
+    let link = ui.add(Link::new(text));
+    link.widget_info(|| WidgetInfo::labeled(Role::Link, true, name));
     ui.end_row();
-    clicked
+    link.on_hover_text("Looks at that node.").clicked()
+}
+
+/// A name without a value.
+fn absent_ui(ui: &mut Ui, name: &str, Absent(text, tip): Absent) {
+    ui.label(RichText::new(name).color(theme::WEAK));
+    ui.label(RichText::new(text).color(theme::WEAK)).on_hover_text(tip);
+    ui.end_row();
 }

@@ -8,7 +8,7 @@ use egui::{Galley, Response, TextBuffer, TextEdit, TextStyle, Ui, vec2};
 pub fn path_field(ui: &mut Ui, name: &str, path: &mut String, width: f32) -> Response {
     let id = ui.make_persistent_id(name);
     let is_edited = ui.memory(|memory| memory.has_focus(id));
-    let mut layout = |ui: &Ui, text: &dyn TextBuffer, _: f32| end_of(ui, text.as_str(), width - 8.0);
+    let mut layout = |ui: &Ui, text: &dyn TextBuffer, room: f32| end_of(ui, text.as_str(), room);
     let field = TextEdit::singleline(path).id(id).hint_text("a path").desired_width(width);
     if is_edited { ui.add(field) } else { ui.add(field.layouter(&mut layout)) }
 }

@@ -15,7 +15,7 @@ pub fn ui(ui: &mut Ui, plan: &FramePlan) {
             Cell::new(row.reason).color(theme::WEAK).tip(row.reason),
         ]
     });
-    table::show(ui, "plan", &[("pass", 0.0), ("state", 40.0), ("reason", 150.0)], rows.collect());
+    table::show(ui, "plan", &[("pass", 0.0), ("state", 34.0), ("reason", 160.0)], rows.collect());
 }
 
 /// Of methods beside the one that is shown, their number too.
