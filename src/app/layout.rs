@@ -67,12 +67,6 @@ impl App {
         commands.into_iter().for_each(|command| self.apply(ctx, command, clock_secs));
     }
 
-    fn show_log(&mut self, ctx: &egui::Context) {
-        self.desk.unfolded.measurements = true;
-        self.desk.revealed = Some(panels::LOG);
-        ctx.request_repaint();
-    }
-
     fn panels_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         Panel::top("top bar").exact_size(34.0).show(ui, |ui| commands.extend(self.top_bar_ui(ui)));

@@ -36,6 +36,7 @@ mod playback;
 mod reference;
 mod remembered;
 mod rescue;
+mod revealing;
 mod run;
 mod scale_ticks;
 mod restored;

@@ -29,15 +29,6 @@ impl App {
         self.desk.path = path.display().to_string();
     }
 
-    /// Where the desktop has no file dialog.
-    pub(super) fn ask_for_path(&mut self, ctx: &egui::Context) {
-        let sentence = "There is no file dialog here: type a path and press Enter, or drop a file on the window.";
-        self.journal.tell(Severity::Warning, sentence);
-        self.desk.unfolded.controls = true;
-        self.desk.revealed = Some(panels::SCENE);
-        ctx.request_repaint();
-    }
-
     /// Opens the file again, at another of its scenes.
     pub(super) fn show_another_scene(&mut self, ctx: &egui::Context, number: usize) {
         let source = self.prepared().and_then(|prepared| prepared.scene.source.clone());
