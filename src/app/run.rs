@@ -12,6 +12,8 @@ use crate::settings::NodeNames;
 /// A device that is lost sooner than this after the last one is not replaced.
 const WORTH_ANOTHER_DEVICE: Duration = Duration::from_secs(10);
 
+const ICON: &[u8] = include_bytes!("../../assets/octolume.png");
+
 /// Opens the window on a file, or on a built-in scene by its name, and returns when it is closed.
 /// Without a display, or a GPU for it, the error is one sentence. When the GPU is lost, the window
 /// is opened again on a new device, with scene and settings kept.
@@ -40,7 +42,7 @@ fn open_window(
     app: impl FnOnce(&eframe::CreationContext<'_>) -> Result<App, NoApp>,
 ) -> anyhow::Result<()> {
     let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default().with_inner_size([1440.0, 900.0]).with_min_inner_size([640.0, 400.0]),
+        viewport: viewport(),
         renderer: eframe::Renderer::Wgpu,
         // Where nothing is remembered, there is no file, and nothing is saved.
         persistence_path: Some(remembered_in.clone().unwrap_or_default()),
@@ -57,6 +59,16 @@ fn open_window(
         eframe::Error::WinitEventLoop(_) => anyhow!("the display cannot be opened; the subcommands work without one"),
         error => anyhow!("no window can be opened: {error}"),
     })
+}
+
+/// The desktop knows the window by the name of `assets/octolume.desktop`.
+fn viewport() -> egui::ViewportBuilder {
+    let viewport = egui::ViewportBuilder::default().with_app_id("octolume");
+    let viewport = viewport.with_inner_size([1440.0, 900.0]).with_min_inner_size([640.0, 400.0]);
+    match eframe::icon_data::from_png_bytes(ICON) {
+        Ok(icon) => viewport.with_icon(icon),
+        Err(_) => viewport,
+    }
 }
 
 impl App {
@@ -81,5 +93,19 @@ impl App {
     /// What the next window goes on with, if this one lost its GPU.
     pub fn rescued(&self) -> Option<Kept> {
         self.rescue.take()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_window_has_a_name_and_an_icon() {
+        let viewport = viewport();
+        assert_eq!(viewport.app_id.as_deref(), Some("octolume"));
+        let icon = viewport.icon.expect("an icon");
+        assert_eq!((icon.width, icon.height), (256, 256));
+        assert!(include_str!("../../assets/octolume.desktop").contains("StartupWMClass=octolume"));
     }
 }
