@@ -2,6 +2,7 @@
 
 use super::App;
 use super::command::Command;
+use super::folding::Side;
 use super::measuring::Order;
 use super::playback;
 use super::screenshots::{Content, Format};
@@ -38,7 +39,9 @@ impl App {
             Command::ShowAll => self.settings.shot.visibility = Visibility::default(),
             Command::Undo => self.undo_or_redo(true),
             Command::Redo => self.undo_or_redo(false),
-            Command::ToggleTree => self.desk.unfolded.tree ^= true,
+            Command::ToggleHelp => self.is_help_open ^= true,
+            Command::Theme(theme) => ctx.set_theme(theme),
+            Command::ToggleTree => self.folding.toggle(&mut self.desk.unfolded, Side::Tree),
             Command::Move(motion) => {
                 self.settings.shot.motion = motion;
                 self.restart_clock(clock_secs);

@@ -57,6 +57,9 @@ pub enum Command {
     Isolate,
     ShowAll,
     ToggleTree,
+    ToggleHelp,
+    /// Dark, light, or as the desktop is.
+    Theme(egui::ThemePreference),
     Undo,
     Redo,
     SaveScreenshot,

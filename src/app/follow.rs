@@ -24,6 +24,7 @@ impl App {
             results: stage.results,
             is_finished: is_full && stage.working().is_none() && stage.error().is_none(),
             is_quiet: !self.latency.is_under_input(),
+            is_still: !self.playback.is_playing(),
         };
         if let Err(error) = self.desk.reference.follow(ctx, &shown) {
             self.journal.tell(Severity::Error, error);

@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use egui::{Color32, Context, Rect};
+use egui::{Context, Rect};
 
-use super::theme;
+use super::palette::Tone;
 use super::toasts::Toasts;
 
 /// Lines kept.
@@ -20,11 +20,12 @@ pub enum Severity {
 }
 
 impl Severity {
-    pub fn color(self) -> Color32 {
+    /// Of its note, and of its line in the log.
+    pub fn tone(self) -> Tone {
         match self {
-            Self::Info => theme::STRONG,
-            Self::Warning => theme::WARNING,
-            Self::Error => theme::ERROR,
+            Self::Info => Tone::Strong,
+            Self::Warning => Tone::Warning,
+            Self::Error => Tone::Error,
         }
     }
 }
@@ -68,7 +69,7 @@ impl Journal {
             (self.tell_error)(&text);
         }
         let secs = if severity == Severity::Info { 3.0 } else { 8.0 };
-        self.toasts.add(&text, severity.color(), secs);
+        self.toasts.add(&text, severity.tone(), secs);
         self.note(severity, text);
     }
 

@@ -1,8 +1,8 @@
-//! A frame of the window: panels from the outside in, the picture in the room that is left.
+//! A frame of the window: panels, the picture in the room that is left, and what the panels hold.
 
 use std::time::Instant;
 
-use egui::{Panel, ScrollArea, Ui};
+use egui::Ui;
 
 use super::command::Command;
 use super::panels::cones::ConesPanel;
@@ -10,11 +10,10 @@ use super::panels::discretization::DiscretizationPanel;
 use super::panels::light::LightPanel;
 use super::panels::path_field::path_field;
 use super::panels::reference::ReferencePanel;
-use super::panels::top_bar::TopBar;
 use super::panels::tree_row::TreePanel;
 use super::panels::view::{CameraChoice, ViewPanel};
 use super::panels::{self, section, section_revealed};
-use super::{App, shortcuts, theme};
+use super::{App, help, shortcuts, theme};
 use crate::lights::Shines;
 use crate::settings::{ConeTracing, View};
 
@@ -36,6 +35,7 @@ impl eframe::App for App {
             self.settings.shot.motion.time_secs = time_secs;
         }
         let picture = egui::CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, clock_secs)).response.rect;
+        help::ui(&ctx, &mut self.is_help_open);
         self.note_for_undo(clock_secs);
         if self.journal.toasts_ui(&ctx, picture) {
             self.show_log(&ctx);
@@ -67,52 +67,7 @@ impl App {
         commands.into_iter().for_each(|command| self.apply(ctx, command, clock_secs));
     }
 
-    fn panels_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        Panel::top("top bar").exact_size(34.0).show(ui, |ui| commands.extend(self.top_bar_ui(ui)));
-        Panel::bottom("timeline").exact_size(36.0).show(ui, |ui| commands.extend(self.timeline_ui(ui)));
-        let mut open = self.desk.unfolded.controls;
-        Panel::left("controls").default_size(292.0).size_range(250.0..=480.0).show_collapsible(ui, &mut open, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| commands.extend(self.controls_ui(ui)));
-        });
-        self.desk.unfolded.controls = open;
-        let mut open = self.desk.unfolded.tree;
-        Panel::left("tree")
-            .default_size(270.0)
-            .size_range(180.0..=640.0)
-            .show_collapsible(ui, &mut open, |ui| commands.extend(self.tree_ui(ui)));
-        self.desk.unfolded.tree = open;
-        let mut open = self.desk.unfolded.measurements;
-        Panel::right("measurements").default_size(350.0).size_range(260.0..=620.0).show_collapsible(
-            ui,
-            &mut open,
-            |ui| {
-                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| commands.extend(self.measurements_ui(ui)));
-            },
-        );
-        self.desk.unfolded.measurements = open;
-        commands
-    }
-
-    fn top_bar_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
-        let bar = TopBar {
-            scene: self.scene.as_ref().map(|ready| ready.prepared.scene.name.as_str()),
-            loading: self.loader.progress(),
-            frame: self.stage.working(),
-            exact: self.exact.fraction(),
-            paths: self.desk.reference.fraction(),
-            adapter: &self.stage.engine.gpu().info.name,
-        };
-        panels::top_bar::ui(ui, &bar, &mut self.desk.unfolded)
-    }
-
-    fn timeline_ui(&self, ui: &mut Ui) -> Vec<Command> {
-        let clips = self.prepared().map_or(&[][..], |prepared| &prepared.scene.clips);
-        let shown_secs = self.stage.engine.moment_on_screen().map(|motion| motion.time_secs);
-        panels::timeline::ui(ui, (clips, self.clip()), (&self.settings.shot.motion, shown_secs), &self.playback)
-    }
-
-    fn tree_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+    pub(super) fn tree_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let Some(ready) = &self.scene else {
             panels::nothing(ui, "No scene is open.");
             return Vec::new();
@@ -125,7 +80,7 @@ impl App {
         panels::tree::ui(ui, panel, &mut self.desk.tree)
     }
 
-    fn controls_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+    pub(super) fn controls_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let settings = &self.settings;
         let grid = self.scene.as_ref().map(|ready| &ready.prepared.grid);
         let asks_for_path = self.desk.revealed == Some(panels::SCENE);
@@ -193,7 +148,7 @@ impl App {
     }
 
     /// Names of the lights that have a shadow map, as far as they are asked for.
-    fn shining(&self) -> Vec<String> {
+    pub(super) fn shining(&self) -> Vec<String> {
         let looked_at = self.settings.method.look.view == View::ShadowMap;
         let known = self.prepared().filter(|_| looked_at).map(|prepared| prepared.known_lights(&self.settings));
         let known = known.and_then(Result::ok).unwrap_or_default();
@@ -218,7 +173,7 @@ impl App {
         panels::light::ui(ui, panel, &mut self.desk.light)
     }
 
-    fn measurements_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+    pub(super) fn measurements_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let stage = &self.stage;
         let mut commands = section(ui, "Timings", true, |ui| {
             panels::timings::ui(ui, (&stage.timings, stage.last_frame), &stage.history, &self.latency);

@@ -2,6 +2,7 @@
 
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
 
+use super::numbers::signed;
 use super::scale_ticks::{Tick, ticks};
 use super::theme;
 use crate::accuracy::picture_error::difference_color;
@@ -12,6 +13,8 @@ use crate::stages::view::palette::legend_value;
 use crate::stages::view::show_surfaces::tone_mapped;
 
 const SIZE: egui::Vec2 = vec2(150.0, 10.0);
+/// Room that a legend takes from the upper edge of the view.
+pub const HEIGHT: f32 = 64.0;
 /// Room for numbers below.
 const SCALE_WIDTH: f32 = 260.0;
 
@@ -29,11 +32,7 @@ pub fn paint(painter: &Painter, view: Rect, look: &Look, values: Values) {
     let corner = view.left_top() + vec2(12.0, 12.0);
     match (look.view, look.color) {
         (View::Slice, _) => slice(painter, corner, &look.slice, values),
-        (View::ShadowMap, _) => {
-            let ticks = values.range.map(|range| ticks(range, false)).unwrap_or_default();
-            let color = |part| legend_value(ColorBy::Occupancy, part);
-            scale(painter, corner, "distance from the light, scene units", &ticks, color);
-        }
+        (View::ShadowMap, _) => shadow_map(painter, corner, values.range),
         (View::Voxels, ColorBy::Radiance) => toned(painter, corner, RADIANCE, values, ToneCurve::Linear),
         (View::Voxels, ColorBy::Irradiance) => toned(painter, corner, IRRADIANCE, values, ToneCurve::Linear),
         (View::Surfaces, _) => surfaces(painter, corner, look, values),
@@ -119,7 +118,7 @@ const IRRADIANCE: &str = "irradiance, lux";
 /// Light up to what is white under this curve.
 fn toned(painter: &Painter, corner: Pos2, name: &str, values: Values, curve: ToneCurve) {
     let white = white(curve);
-    let name = format!("{name}; exposure {:+.1} stops", values.exposure.log2());
+    let name = format!("{name}; exposure {} stops", signed(values.exposure.log2(), 1));
     let ticks = ticks([0.0, white / values.exposure], false);
     scale(painter, corner, &name, &ticks, |part| [srgb_byte(tone_mapped(curve, part * white) as f32); 3]);
 }
@@ -177,6 +176,15 @@ fn slice(painter: &Painter, corner: Pos2, slice: &Slice, values: Values) {
     let ticks = values.range.map(|range| ticks(range, slice.logarithmic)).unwrap_or_default();
     let name = if slice.logarithmic { format!("{name}, logarithmic") } else { name.to_owned() };
     scale(painter, corner, &name, &ticks, |part| legend_value(map, part));
+}
+
+/// A sun is at no place: its distances begin where it meets the grid.
+fn shadow_map(painter: &Painter, corner: Pos2, range: Option<[f64; 2]>) {
+    let is_sun = range.is_some_and(|[least, _]| least != 0.0);
+    let from = if is_sun { "the grid's corner nearest to the sun" } else { "the light" };
+    let ticks = range.map(|[least, most]| ticks([0.0, most - least], false)).unwrap_or_default();
+    let color = |part| legend_value(ColorBy::Occupancy, part);
+    scale(painter, corner, &format!("depth from {from}, scene units"), &ticks, color);
 }
 
 /// A linear colour of a shader as the picture shows it.

@@ -11,12 +11,16 @@
 
 mod background;
 mod apply;
+mod coarseness;
 mod command;
 mod desk;
 mod device;
 mod exact_job;
 mod folders;
+mod folding;
 mod follow;
+mod gestures;
+mod help;
 mod history;
 mod inspector;
 mod host;
@@ -27,12 +31,16 @@ mod legend;
 mod loader;
 mod measuring;
 mod node_overlay;
+mod numbers;
 mod opening;
 mod outline;
 mod pace;
+mod palette;
+mod panel_places;
 mod panels;
 mod picture;
 mod playback;
+mod quick_clicks;
 mod reference;
 mod remembered;
 mod rescue;
@@ -51,18 +59,21 @@ mod theme;
 mod toasts;
 mod undo;
 mod viewport;
+mod why_empty;
 
 use std::path::Path;
 use std::sync::Arc;
 
 use self::desk::Desk;
 use self::exact_job::ExactJob;
+use self::folding::Folding;
 pub use self::host::{Choice, Host};
 use self::journal::{Journal, Severity};
 pub use self::latency::Latency;
 use self::loader::{Loader, Ready};
 pub use self::pace::Pace;
 use self::playback::Playback;
+use self::quick_clicks::QuickClicks;
 pub use self::rescue::Kept;
 use self::rescue::Rescue;
 use self::restored::Restored;
@@ -82,6 +93,8 @@ use crate::stages::SHADERS;
 
 /// Of the program, where the desktop asks for it.
 const NAME: &str = "Octolume";
+/// Where eframe keeps what egui remembers.
+const EGUI_MEMORY: &str = "egui";
 
 /// Why a window has no app.
 type NoApp = Box<dyn std::error::Error + Send + Sync>;
@@ -97,6 +110,9 @@ pub struct App {
     viewport: Viewport,
     screenshots: Screenshots,
     desk: Desk,
+    folding: Folding,
+    /// The list of keys and gestures is shown.
+    is_help_open: bool,
     undo: Undo,
     /// What a picture has set, until its scene is open.
     restored: Option<Restored>,
@@ -138,7 +154,9 @@ impl App {
     fn empty(context: &eframe::CreationContext<'_>, start: Start) -> Result<Self, NoApp> {
         let render = context.wgpu_render_state.clone().ok_or("the window has no GPU")?;
         let gpu = Arc::new(Gpu::from_wgpu(&SHADERS, &render.adapter, render.device.clone(), render.queue.clone()));
-        theme::apply(&context.egui_ctx);
+        let is_chosen = context.storage.is_some_and(|storage| storage.get_string(EGUI_MEMORY).is_some());
+        theme::apply(&context.egui_ctx, is_chosen);
+        context.egui_ctx.add_plugin(QuickClicks::default());
         let stage = Stage::new(Arc::clone(&gpu));
         let room = stage.engine.room();
         let mut app = Self {
@@ -151,6 +169,8 @@ impl App {
             viewport: Viewport::default(),
             screenshots: Screenshots::new(start.host.screenshots.clone()),
             desk: Desk::default(),
+            folding: Folding::default(),
+            is_help_open: false,
             undo: Undo::default(),
             restored: None,
             names: start.names,

@@ -14,10 +14,13 @@ use crate::scene::OrbitCamera;
 use crate::settings::{Settings, View};
 use crate::stages::pixels::camera::PixelRays;
 
+/// Narrower pictures have no room for all gestures beside their size.
+const HINT_WIDTH: f32 = 520.0;
+
 impl App {
     pub(super) fn picture_ui(&mut self, ui: &mut Ui, clock_secs: f64) {
         let rect = ui.available_rect_before_wrap();
-        let full_px = viewport::size_px(ui, rect, 1);
+        let full_px = viewport::size_px(ui, rect);
         self.view_px = full_px;
         let camera = self.camera(full_px);
         let (settings, size_px) = self.wanted_picture(ui, full_px, clock_secs);
@@ -83,7 +86,7 @@ impl App {
         self.exposure.hold(&mut settings, self.playback.is_playing(), measured);
         let waits = self.screenshots.is_wanted() && !self.playback.is_playing();
         let coarse = self.is_moving(clock_secs) && !waits;
-        let coarseness = if coarse { viewport::coarseness(self.stage.ms_per_pixel(), full_px) } else { 1 };
+        let coarseness = if coarse { self.stage.moving_coarseness(full_px) } else { 1 };
         (settings, full_px.map(|edge| edge.div_ceil(coarseness)))
     }
 
@@ -177,23 +180,20 @@ impl App {
             let text = if self.loader.progress().is_some() { "Opening…" } else { "No scene is open" };
             in_the_middle(&painter, rect, text, theme::WEAK);
         } else if self.stage.engine.shows_nothing() {
-            let text = if self.settings.shot.visibility.shows_all() {
-                "Nothing of this scene is in the grid"
-            } else {
-                "What is shown is not in the grid; Alt+H shows everything"
-            };
-            in_the_middle(&painter, rect, text, theme::WEAK);
+            in_the_middle(&painter, rect, self.why_empty(), theme::WEAK);
         } else if self.ghost_is_on_its_way() {
             let text = "The ghost of this pose is on its way";
             painter.text(
-                rect.center_top() + vec2(0.0, 14.0),
+                rect.center_top() + vec2(0.0, legend::HEIGHT),
                 Align2::CENTER_TOP,
                 text,
                 FontId::proportional(13.0),
                 theme::WARNING,
             );
         }
-        let hint = "drag: orbit   right drag: pan   wheel: zoom   F: frame";
+        let is_wide = rect.width() >= HINT_WIDTH;
+        let hint =
+            if is_wide { "drag: orbit   right drag: pan   wheel: zoom   F: frame   F1: help" } else { "F1: help" };
         legend::caption(&painter, rect.left_bottom() + vec2(14.0, -10.0), Align2::LEFT_BOTTOM, hint);
         let coarse = if size_px == full_px { "" } else { ", coarse" };
         let size = format!("{} × {} px{coarse}", size_px[0], size_px[1]);
@@ -202,6 +202,7 @@ impl App {
         self.paint_node(&painter, rect, full_px);
         match self.desk.reference.most_difference() {
             Some(most) => legend::differences(&painter, rect, self.settings.method.look.surface, most),
+            None if self.stage.engine.shows_nothing() => {}
             None => legend::paint(&painter, rect, &self.settings.method.look, values),
         }
     }

@@ -1,5 +1,7 @@
 //! The numbers below a colour scale. In: its ends. Out: round numbers and where they stand.
 
+use super::numbers::short;
+
 /// A number and the part of the scale where it stands, 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
@@ -43,22 +45,6 @@ fn multiples(low: f64, high: f64) -> Vec<f64> {
     let step = step.unwrap_or(10.0 * decade);
     let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
     (0..=(last - first) as i32).map(|count| (first + f64::from(count)) * step).collect()
-}
-
-/// Three significant digits, with a power of ten where there would be many zeros.
-pub fn short(value: f64) -> String {
-    let power = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
-    if (-3..6).contains(&power) {
-        let decimals = (2 - power).clamp(0, 6) as usize;
-        let text = format!("{value:.decimals$}");
-        let is_decimal = text.contains('.');
-        return if is_decimal { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text };
-    }
-    let text = format!("{value:.2e}");
-    match text.split_once('e') {
-        Some((digits, power)) => format!("{}e{power}", digits.trim_end_matches('0').trim_end_matches('.')),
-        None => text,
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 use super::App;
 use super::journal::Severity;
 use super::outline;
-use crate::scene::OrbitCamera;
 
 impl App {
     pub(super) fn select(&mut self, node: Option<usize>) {
@@ -36,31 +35,27 @@ impl App {
         }
     }
 
-    /// Brings the selected node into view from the side that the camera looks from now; frames
-    /// what the moment shows where none is selected.
+    /// Brings the selected node into view, all that the moment shows where none is selected; from the side that
+    /// the camera looks from now.
     pub(super) fn frame_selected(&mut self) {
         let Some(ready) = &self.scene else { return };
-        let aspect = f64::from(self.view_px[0]) / f64::from(self.view_px[1]);
-        let Some(node) = self.desk.tree.selected else {
-            let bounds = ready.prepared.bounds_shown(&self.settings.shot);
-            self.settings.shot.camera = bounds.map(|bounds| {
-                let mut camera = OrbitCamera::default();
-                camera.frame(Some(bounds), aspect);
-                camera
-            });
-            return;
+        let bounds = match self.desk.tree.selected {
+            None => ready.prepared.bounds_shown(&self.settings.shot),
+            Some(node) => match ready.prepared.bounds_below(node, &self.settings.shot.motion) {
+                Ok(Some(bounds)) => Some(bounds),
+                Ok(None) => {
+                    let name = outline::name(&ready.prepared.scene, node);
+                    return self
+                        .journal
+                        .tell(Severity::Warning, format!("\"{name}\" is at no finite place in this pose."));
+                }
+                Err(error) => return self.journal.tell(Severity::Error, error.to_string()),
+            },
         };
-        match ready.prepared.bounds_below(node, &self.settings.shot.motion) {
-            Ok(Some(bounds)) => {
-                let mut camera = self.camera(self.view_px);
-                camera.frame(Some(bounds), aspect);
-                self.settings.shot.camera = Some(camera);
-            }
-            Ok(None) => {
-                let name = outline::name(&ready.prepared.scene, node);
-                self.journal.tell(Severity::Warning, format!("\"{name}\" is at no finite place in this pose."));
-            }
-            Err(error) => self.journal.tell(Severity::Error, error.to_string()),
+        if bounds.is_some() {
+            let mut camera = self.camera(self.view_px);
+            camera.frame(bounds, f64::from(self.view_px[0]) / f64::from(self.view_px[1]));
+            self.settings.shot.camera = Some(camera);
         }
     }
 }

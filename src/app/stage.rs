@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::coarseness::Coarseness;
 use super::history::FrameHistory;
 use super::pace::Pace;
 use crate::engine::{AccuracyReport, Engine, EngineError, EngineState, OctreeReport, PassTiming};
@@ -10,6 +11,17 @@ use crate::gpu::{Gpu, GpuTexture};
 use crate::plan::{FramePlan, Part, Pass};
 use crate::prepare::{ExactVoxels, Prepared};
 use crate::settings::Settings;
+
+/// Parts that cost more the more pixels there are.
+const OF_PIXELS: [Part; 7] = [
+    Part::SurfaceImage,
+    Part::DirectLight,
+    Part::DiffuseLight,
+    Part::GlossyTiles,
+    Part::SpecularLight,
+    Part::ComposedLight,
+    Part::Picture,
+];
 
 pub struct Stage {
     pub engine: Engine,
@@ -40,6 +52,7 @@ pub struct Stage {
     asked: Option<(Settings, [u32; 2])>,
     /// What a pixel of the last picture cost.
     ms_per_pixel: f64,
+    coarseness: Coarseness,
     /// The last picture that was finished.
     finished: Option<GpuTexture>,
 }
@@ -75,6 +88,7 @@ impl Stage {
             state: State::Idle,
             asked: None,
             ms_per_pixel: 0.0,
+            coarseness: Coarseness::default(),
             finished: None,
         }
     }
@@ -168,8 +182,9 @@ impl Stage {
         self.finished.as_ref()
     }
 
-    pub fn ms_per_pixel(&self) -> f64 {
-        self.ms_per_pixel
+    /// What each edge of a moving picture is to be divided by.
+    pub fn moving_coarseness(&mut self, full_px: [u32; 2]) -> u32 {
+        self.coarseness.next(self.ms_per_pixel, full_px)
     }
 
     /// Takes down what the last frame has cost.
@@ -178,8 +193,8 @@ impl Stage {
         self.builds += u64::from(building.into_iter().any(|pass| self.plan.runs(pass)));
         self.history.push(&self.timings, self.last_frame);
         let drawn = self.timings.iter().filter(|timing| timing.frame == self.last_frame);
-        let view_ms: f64 =
-            drawn.filter(|timing| timing.pass.parts() == [Part::Picture]).map(|timing| timing.kernel.ms).sum();
+        let is_of_pixels = |timing: &&PassTiming| timing.pass.parts().iter().any(|part| OF_PIXELS.contains(part));
+        let view_ms: f64 = drawn.filter(is_of_pixels).map(|timing| timing.kernel.ms).sum();
         if let Some(picture) = self.finished.as_ref().filter(|_| view_ms > 0.0) {
             let [width, height] = picture.size_px().map(f64::from);
             self.ms_per_pixel = view_ms / (width * height);

@@ -3,8 +3,10 @@
 use std::time::Duration;
 
 use egui::text::LayoutJob;
-use egui::{Align, Align2, Area, Color32, Context, CursorIcon, Frame, Id, Label, Layout, Order, Rect, Response, Role};
+use egui::{Align, Align2, Area, Context, CursorIcon, Frame, Id, Label, Layout, Order, Rect, Response, Role};
 use egui::{Sense, TextStyle, Ui, Vec2, WidgetInfo, vec2};
+
+use super::palette::Tone;
 
 /// From the edges of the picture; its captions are below.
 const MARGIN: Vec2 = vec2(12.0, 38.0);
@@ -26,15 +28,15 @@ pub struct Toasts {
 
 struct Toast {
     text: String,
-    color: Color32,
+    tone: Tone,
     secs: f64,
     /// On the window's clock, from the first time it is shown.
     until_secs: Option<f64>,
 }
 
 impl Toasts {
-    pub fn add(&mut self, text: impl Into<String>, color: Color32, secs: f64) {
-        self.shown.push(Toast { text: text.into(), color, secs, until_secs: None });
+    pub fn add(&mut self, text: impl Into<String>, tone: Tone, secs: f64) {
+        self.shown.push(Toast { text: text.into(), tone, secs, until_secs: None });
         let surplus = self.shown.len().saturating_sub(MAX_SHOWN);
         self.shown.drain(..surplus);
     }
@@ -81,7 +83,7 @@ impl Toast {
         let frame = Frame::popup(ui.style());
         let text_width = width - frame.total_margin().sum().x;
         let font = TextStyle::Body.resolve(ui.style());
-        let mut text = LayoutJob::simple(self.text.clone(), font, self.color, text_width);
+        let mut text = LayoutJob::simple(self.text.clone(), font, self.tone.of(ui), text_width);
         text.wrap.max_rows = MAX_ROWS;
         let text = ui.fonts_mut(|fonts| fonts.layout_job(text));
         let shown = frame.show(ui, |ui| ui.add(Label::new(text).selectable(false)));
@@ -114,8 +116,8 @@ mod tests {
     #[test]
     fn long_notes_wrap_within_the_picture() {
         let (ctx, mut toasts) = (Context::default(), Toasts::default());
-        toasts.add("/no/spaces/in/this/path".repeat(40), Color32::WHITE, 8.0);
-        toasts.add("a sentence ".repeat(40), Color32::WHITE, 8.0);
+        toasts.add("/no/spaces/in/this/path".repeat(40), Tone::Strong, 8.0);
+        toasts.add("a sentence ".repeat(40), Tone::Strong, 8.0);
         let rect = [0.0, 0.1].map(|secs| frame(&ctx, &mut toasts, secs, None))[1].expect("shown");
         assert!(rect.left() > 300.0 && rect.right() < 900.0 && rect.bottom() < 540.0, "{rect}");
         assert!(rect.width() <= MAX_WIDTH + 1.0 && rect.height() > 100.0, "{rect}");
@@ -125,7 +127,7 @@ mod tests {
     fn notes_go_after_their_time_unless_they_are_pointed_at() {
         let (ctx, mut toasts) = (Context::default(), Toasts::default());
         assert_eq!(frame(&ctx, &mut toasts, 100.0, None), None);
-        toasts.add("short", Color32::WHITE, 3.0);
+        toasts.add("short", Tone::Strong, 3.0);
         let rect = [200.0, 202.0].map(|secs| frame(&ctx, &mut toasts, secs, None))[1].expect("still there");
         let pointer = Some(rect.right_bottom() - vec2(8.0, 8.0));
         [202.1, 202.2, 300.0].into_iter().for_each(|secs| {
@@ -138,7 +140,7 @@ mod tests {
     #[test]
     fn only_the_newest_notes_are_shown() {
         let mut toasts = Toasts::default();
-        (0..9).for_each(|number| toasts.add(number.to_string(), Color32::WHITE, 3.0));
+        (0..9).for_each(|number| toasts.add(number.to_string(), Tone::Strong, 3.0));
         assert_eq!(toasts.shown.iter().map(|toast| &*toast.text).collect::<String>(), "5678");
     }
 }

@@ -1,8 +1,9 @@
 //! The picture in the middle: shows the engine's image, and turns the pointer's moves into those of the camera.
 
-use egui::{PointerButton, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
+use egui::{Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
 
 use super::command::Command;
+use super::gestures::{self, Drag};
 use super::theme;
 use crate::gpu::GpuTexture;
 use crate::scene::OrbitCamera;
@@ -11,8 +12,6 @@ use crate::scene::OrbitCamera;
 const TURN_PER_HEIGHT_RADIANS: f64 = std::f64::consts::PI;
 /// Distance factor a point of scrolling, as e^(−points · this).
 const ZOOM_PER_POINT: f64 = 0.004;
-/// A moving picture may cost the GPU this much.
-const MOVING_BUDGET_MS: f64 = 33.0;
 /// Largest edge of a picture, where the adapter allows as much.
 const MAX_EDGE_PX: f32 = 4096.0;
 
@@ -29,7 +28,7 @@ impl Viewport {
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "View of the scene"));
         ui.painter().rect_filled(rect, 0.0, theme::BACKGROUND);
         if let Some(image) = image {
-            let id = self.texture_id(render, image, size_px(ui, rect, 1));
+            let id = self.texture_id(render, image, size_px(ui, rect));
             let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
             ui.painter().image(id, rect, whole, egui::Color32::WHITE);
         }
@@ -63,18 +62,10 @@ impl Viewport {
     }
 }
 
-/// Pixels of a picture that fills `rect`, each edge divided by `coarseness`; zero where there is no room.
-pub fn size_px(ui: &Ui, rect: Rect, coarseness: u32) -> [u32; 2] {
+/// Pixels of a picture that fills `rect`; zero where there is no room.
+pub fn size_px(ui: &Ui, rect: Rect) -> [u32; 2] {
     let size = rect.size() * ui.pixels_per_point();
-    let edge = |points: f32| points.round().clamp(0.0, MAX_EDGE_PX) as u32;
-    [size.x, size.y].map(|points| edge(points).div_ceil(coarseness))
-}
-
-/// By how much a moving picture must be coarser to stay fluid, given what a pixel cost last.
-pub fn coarseness(ms_per_pixel: f64, full_px: [u32; 2]) -> u32 {
-    let pixels = full_px.map(f64::from);
-    let full_ms = ms_per_pixel * pixels[0] * pixels[1];
-    [1, 2].into_iter().find(|&d| full_ms / f64::from(d * d) <= MOVING_BUDGET_MS).unwrap_or(4)
+    [size.x, size.y].map(|points| points.round().clamp(0.0, MAX_EDGE_PX) as u32)
 }
 
 /// What the pointer over the view asks for.
@@ -101,25 +92,9 @@ fn drag(ui: &Ui, response: &Response, camera: &mut OrbitCamera) {
         return;
     }
     let [right, down] = [travel.x, travel.y].map(|points| f64::from(points / response.rect.height()));
-    let turns = response.dragged_by(PointerButton::Primary) && !ui.input(|input| input.modifiers.shift);
-    if turns {
-        camera.orbit(-right * TURN_PER_HEIGHT_RADIANS, down * TURN_PER_HEIGHT_RADIANS);
-    } else {
-        camera.pan(-right, down);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_moving_picture_is_only_as_coarse_as_it_must_be() {
-        let full_px = [1000, 1000];
-        assert_eq!(coarseness(0.0, full_px), 1);
-        assert_eq!(coarseness(33e-6, full_px), 1);
-        assert_eq!(coarseness(100e-6, full_px), 2);
-        assert_eq!(coarseness(1e-3, full_px), 4);
-        assert_eq!(coarseness(f64::NAN, full_px), 4);
+    match gestures::drag(ui, response) {
+        Some(Drag::Orbit) => camera.orbit(-right * TURN_PER_HEIGHT_RADIANS, down * TURN_PER_HEIGHT_RADIANS),
+        Some(Drag::Pan) => camera.pan(-right, down),
+        None => {}
     }
 }

@@ -21,7 +21,7 @@ readonly VOXELS="114 808" MESH="164 808" GHOST="211 808"
 readonly LEVEL_LEAVES="214 855" LEVEL_MIDDLE="150 855"
 readonly TIME_START="342 882" TIME_MIDDLE="700 882"
 readonly TREE_SECOND_ROW="400 93"
-readonly VIEW_MIDDLE="690 460" VIEW_ASIDE="810 520" SCREENSHOT="1278 17"
+readonly VIEW_MIDDLE="690 460" VIEW_ASIDE="810 520" SCREENSHOT="1201 17"
 # With Scene, Discretization and Filter folded, and Light unfolded.
 readonly FILTER="15 464" DISCRETIZATION="15 274" SCENE="15 46" LIGHT="15 148"
 readonly FIRST_LIGHT="16 176" SKY="120 278"
@@ -31,7 +31,7 @@ readonly HEIGHT_MIDDLE="155 636" HEIGHT_LOW="110 636"
 readonly TIMINGS="1107 46" NODE="1107 81" DRAW_POINTERS="1106 105" FIRST_CHILD="1200 283" ABOVE="1200 371"
 # With Light and the node folded too. The divider of the wipe is in the middle at first.
 readonly SURFACES="250 231" CONE_TRACING="15 420" HALF_RESOLUTION="15 709"
-readonly REFERENCE="1107 115" SAMPLES="1197 140" START="1238 140" WIPE="1300 181"
+readonly REFERENCE="1107 115" SAMPLES="1197 140" START="1238 140" WIPE="1299 252"
 readonly DIVIDER="692 460" DIVIDER_LEFT="480 460"
 # The picture alone, without the texts over it.
 readonly VIEW=770x740+300+80
@@ -143,7 +143,8 @@ click "$GHOST"; photograph_at_rest 10-ghost; must_change 09-mesh 10-ghost
 click "$VOXELS"; click "$MEASURE"; photograph_at_rest 11-measured; must_equal 08-leaves 11-measured
 
 drag "$VIEW_MIDDLE" "$VIEW_ASIDE"; photograph_at_rest 12-orbited; must_change 11-measured 12-orbited
-xdotool key f; photograph_at_rest 13-framed; must_change 12-orbited 13-framed
+zoom_in "$VIEW_MIDDLE"; photograph_at_rest 12-zoomed; must_change 12-orbited 12-zoomed
+xdotool key f; photograph_at_rest 13-framed; must_change 12-zoomed 13-framed
 
 xdotool key t; click "$TREE_SECOND_ROW"; photograph_at_rest 14-tree; must_change 13-framed 14-tree
 xdotool key h; photograph_at_rest 15-hidden; must_change 14-tree 15-hidden

@@ -12,6 +12,7 @@
 mod controls;
 mod files;
 mod lights;
+mod looks;
 mod measure;
 mod node;
 mod notes;
@@ -32,7 +33,7 @@ use egui_kittest::kittest::Queryable as _;
 use octolume::app::App;
 use octolume::digest::Digest;
 use octolume::export::read_settings;
-use octolume::scene::builtin;
+use octolume::scene::{OrbitCamera, builtin};
 use octolume::settings::{Filter, View};
 
 use files::Dropped;
@@ -55,12 +56,24 @@ fn the_camera_orbits_pans_zooms_and_frames_everything_again() {
         window.0.event(press(false, center + vec2(60.0, 40.0)));
         window.settle();
     };
-    for button in [egui::PointerButton::Primary, egui::PointerButton::Secondary, egui::PointerButton::Middle] {
+    for button in [egui::PointerButton::Secondary, egui::PointerButton::Middle] {
         drag(&mut window, button);
         assert_changed(&framed, &window.view(), "dragging");
         window.press(Modifiers::NONE, Key::F);
         assert_eq!(difference(&framed, &window.view()), 0, "F frames everything again");
     }
+    let camera = |window: &Window| window.app().settings().shot.camera.expect("it was moved");
+    let side = |camera: &OrbitCamera| (camera.eye - camera.target).normalize();
+    let at_first = camera(&window);
+    drag(&mut window, egui::PointerButton::Primary);
+    let turned = camera(&window);
+    assert_changed(&framed, &window.view(), "turning");
+    assert!(side(&turned).distance(side(&at_first)) > 0.01);
+    drag(&mut window, egui::PointerButton::Secondary);
+    window.press(Modifiers::NONE, Key::F);
+    let again = camera(&window);
+    assert!(side(&again).distance(side(&turned)) < 1e-9, "F keeps the side that is looked from");
+    assert!(again.target.distance(at_first.target) < 1e-9 && (again.distance() - at_first.distance()).abs() < 1e-9);
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn settings(set: Change) -> Settings {
 
 /// A window whose clip plays. All of a picture fits the budget of its frames, on any machine.
 fn playing(settings: Settings) -> Window {
-    let mut window = Window::sized(wgpu_setup(), "courtyard", settings, vec2(700.0, 360.0));
+    let mut window = Window::sized(wgpu_setup(), "courtyard", settings, vec2(700.0, 100.0));
     let pace = Pace { budget: PATIENCE, budget_under_input: PATIENCE, blink: PATIENCE };
     window.0.state_mut().set_pace(pace);
     window.0.key_press_modifiers(Modifiers::NONE, Key::Space);

@@ -20,6 +20,7 @@ fn window() -> Window {
     // A small view: paths take their time.
     window.0.set_size(vec2(820.0, 440.0));
     window.settle();
+    window.click("Measurements");
     window
 }
 
@@ -101,8 +102,8 @@ fn a_reference_of_another_picture_is_told_from_one_of_this() {
     assert_eq!(window.count(note), 0);
 }
 
-#[test]
-fn a_run_is_stopped_and_goes_on() {
+/// A run that does not end by itself, after its first sample.
+fn running() -> Window {
     let mut window = window();
     window.set("Samples", 60_000.0);
     window.0.get_by_label("Start").click();
@@ -112,11 +113,44 @@ fn a_run_is_stopped_and_goes_on() {
         window.0.step();
     }
     assert!(!window.app().is_settled(), "it goes on");
+    window
+}
+
+#[test]
+fn a_run_is_stopped_and_goes_on() {
+    let mut window = running();
     window.click("Stop");
+    assert!(window.0.query_by_label_contains("of 60000: what is traced is kept").is_some());
     assert!(window.0.query_by_label("Start").is_some() && window.0.query_by_label_contains(" sample").is_some());
     window.set("Samples", 1.0);
     window.click("Start");
     assert!(window.0.query_by_label_contains(" sample").is_some(), "what was traced is still there");
+}
+
+#[test]
+fn a_run_stops_when_its_picture_is_gone() {
+    let mut window = running();
+    window.press(Modifiers::NONE, egui::Key::F);
+    let note = "of 60000, for the picture has changed";
+    assert!(window.0.query_by_label("Start").is_some() && window.0.query_by_label_contains(note).is_some());
+    window.press(Modifiers::COMMAND, egui::Key::Z);
+    window.set("Samples", 1.0);
+    window.click("Start");
+    assert!(window.0.query_by_label_contains(note).is_none(), "as many as are asked for are there");
+}
+
+#[test]
+fn another_picture_is_traced_instead_where_that_is_wanted() {
+    let mut window = window();
+    window.set("Samples", 1.0);
+    window.click("Restart when the view changes");
+    window.click("Start");
+    window.click("Paths");
+    let before = window.view();
+    window.press(Modifiers::NONE, egui::Key::F);
+    assert_eq!(window.count("It is of another picture: camera, scene or light have changed."), 0);
+    assert!(window.0.query_by_label_contains("1 sample").is_some());
+    assert_changed(&before, &window.view(), "paths of another camera");
 }
 
 #[test]

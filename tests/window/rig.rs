@@ -64,7 +64,7 @@ impl Window {
     }
 
     pub fn build(device: egui_wgpu::WgpuSetup, app: impl FnOnce(&mut eframe::CreationContext<'static>) -> App) -> Self {
-        Self::build_sized(device, vec2(1000.0, 1000.0), app)
+        Self::build_sized(device, vec2(1100.0, 1000.0), app)
     }
 
     fn build_sized(

@@ -1,10 +1,11 @@
 //! The filter switch, and beside it what each filter costs and misses for the scene on screen.
 
-use egui::{Align, Button, Color32, Layout, RichText, Ui, vec2};
+use egui::{Align, Button, Layout, RichText, Ui, vec2};
 
-use super::{bytes, grouped, milliseconds};
+use super::{bytes, grouped};
 use crate::app::command::Command;
-use crate::app::theme;
+use crate::app::numbers::{fixed, milliseconds};
+use crate::app::palette::Tone;
 use crate::engine::{AccuracyReport, FilterReport};
 use crate::settings::{Filter, Settings};
 
@@ -82,16 +83,16 @@ fn column_width(ui: &Ui) -> f32 {
     (ui.available_width() - ui.spacing().item_spacing.x) / 2.0
 }
 
-fn row_ui(ui: &mut Ui, name: &str, tip: &str, values: [Option<String>; 2], filter: Filter, color: Option<Color32>) {
+fn row_ui(ui: &mut Ui, name: &str, tip: &str, values: [Option<String>; 2], filter: Filter, color: Option<Tone>) {
     let row = ui.horizontal(|ui| {
-        let name = RichText::new(name).color(theme::WEAK);
+        let name = RichText::new(name).color(Tone::Weak.of(ui));
         sized(ui, NAME_WIDTH, Align::Min, |ui| ui.label(name));
         let width = column_width(ui);
         for (value, of) in values.into_iter().zip([Filter::Nearest, Filter::Split]) {
-            let shown = if of == filter { theme::STRONG } else { ui.visuals().text_color() };
+            let shown = if of == filter { Tone::Strong.of(ui) } else { ui.visuals().text_color() };
             let text = match value {
-                Some(value) => RichText::new(value).color(color.unwrap_or(shown)),
-                None => RichText::new("–").color(theme::WEAK),
+                Some(value) => RichText::new(value).color(color.map_or(shown, |tone| tone.of(ui))),
+                None => RichText::new("–").color(Tone::Weak.of(ui)),
             };
             sized(ui, width, Align::Max, |ui| ui.label(text));
         }
@@ -113,16 +114,16 @@ fn sized(ui: &mut Ui, width: f32, align: Align, add: impl FnOnce(&mut Ui) -> egu
     });
 }
 
-fn row_color(name: &str) -> Option<Color32> {
+fn row_color(name: &str) -> Option<Tone> {
     match name {
-        "Holes" => Some(theme::HOLE),
-        "Spill" => Some(theme::SPILL),
+        "Holes" => Some(Tone::Hole),
+        "Spill" => Some(Tone::Spill),
         _ => None,
     }
 }
 
 fn percent(cells: u64, exact: u64) -> String {
-    format!("{:.3} %", 100.0 * cells as f64 / exact.max(1) as f64)
+    format!("{} %", fixed(100.0 * cells as f64 / exact.max(1) as f64, 3))
 }
 
 fn measure_ui(ui: &mut Ui, settings: &Settings) -> Option<Command> {

@@ -6,8 +6,8 @@ use egui::{Button, Role, ScrollArea, Ui, WidgetInfo};
 use super::light_editor::{Editor, short_unit};
 use super::{light_method, nothing};
 use crate::app::command::Command;
-use crate::app::scale_ticks::short;
-use crate::app::theme;
+use crate::app::numbers::short;
+use crate::app::palette::Tone;
 use crate::lights::{KnownLight, LightSource, Shines, brightest_at};
 use crate::scene::{LightKind, OrbitCamera, Scene};
 use crate::settings::lighting::{AddedLight, LightEdit, Lighting, SunShines};
@@ -73,12 +73,12 @@ fn row_ui(
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let (text, color) = match cause(known.shines) {
-                None => (format!("{} {}", short(known.light.intensity), short_unit(known.light.kind)), theme::WEAK),
+                None => (format!("{} {}", short(known.light.intensity), short_unit(known.light.kind)), Tone::Weak),
                 Some(cause) => {
-                    (cause.to_owned(), if known.shines == Shines::Nowhere { theme::WARNING } else { theme::WEAK })
+                    (cause.to_owned(), if known.shines == Shines::Nowhere { Tone::Warning } else { Tone::Weak })
                 }
             };
-            ui.label(egui::RichText::new(text).color(color).small());
+            ui.label(egui::RichText::new(text).color(color.of(ui)).small());
             let is_selected = *selected == Some(known.source);
             let row = Button::selectable(is_selected, name.as_str()).truncate();
             let size = egui::vec2(ui.available_width(), ROW_HEIGHT);

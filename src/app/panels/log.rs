@@ -5,7 +5,7 @@ use egui::{RichText, Ui};
 use super::nothing;
 use crate::app::command::Command;
 use crate::app::journal::Entry;
-use crate::app::theme;
+use crate::app::palette::Tone;
 
 pub fn ui<'a>(ui: &mut Ui, entries: impl DoubleEndedIterator<Item = &'a Entry>) -> Vec<Command> {
     let mut entries = entries.rev().peekable();
@@ -19,8 +19,8 @@ pub fn ui<'a>(ui: &mut Ui, entries: impl DoubleEndedIterator<Item = &'a Entry>) 
     }
     for entry in entries {
         ui.horizontal_wrapped(|ui| {
-            ui.label(RichText::new(clock(entry.at_secs)).color(theme::WEAK).monospace());
-            ui.label(RichText::new(&entry.text).color(entry.severity.color()));
+            ui.label(RichText::new(clock(entry.at_secs)).color(Tone::Weak.of(ui)).monospace());
+            ui.label(RichText::new(&entry.text).color(entry.severity.tone().of(ui)));
             let file = entry.file.as_ref().map(|file| file.display().to_string());
             if let Some(file) = file.filter(|_| ui.small_button("Copy path").clicked()) {
                 commands.push(Command::Copy(file));

@@ -1,17 +1,19 @@
 //! Experiments: which is wanted, how far it is, and what it has found so far.
 
-use egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
+use egui::{Button, ProgressBar, RichText, ScrollArea, Ui, vec2};
 
 use super::table::{self, Cell};
-use super::{control, list, nothing, number, unless};
+use super::{control, list, number, unless};
 use crate::app::command::Command;
 use crate::app::measuring::{Measure, Measuring, Order};
-use crate::app::theme;
+use crate::app::palette::Tone;
 use crate::experiment::{Report, Table};
 
 /// Of a digit, and around a column.
 const CHARACTER_WIDTH: f32 = 6.5;
 const COLUMN_MARGIN: f32 = 10.0;
+/// Of Start and of Cancel.
+const BUTTON_WIDTH: f32 = 54.0;
 
 const MEASURES: [(Measure, &str, &str); 5] = [
     (Measure::Kernels, "Kernels", "Every kernel of a whole rebuild, beside what its memory traffic alone would take."),
@@ -33,9 +35,8 @@ pub fn ui(ui: &mut Ui, measuring: &Measuring, has_scene: bool) -> Vec<Command> {
     let mut orders = Vec::new();
     choose_ui(ui, measuring, &mut orders);
     run_ui(ui, measuring, has_scene, &mut orders);
-    match measuring.report() {
-        None => nothing(ui, "Nothing is measured yet."),
-        Some(report) => report_ui(ui, (measuring, report), &mut orders),
+    if measuring.report().is_some() {
+        report_ui(ui, measuring, &mut orders);
     }
     orders.into_iter().map(Command::Measure).collect()
 }
@@ -56,31 +57,43 @@ fn choose_ui(ui: &mut Ui, measuring: &Measuring, orders: &mut Vec<Order>) {
     });
 }
 
+/// As high while something is measured as before and after.
 fn run_ui(ui: &mut Ui, measuring: &Measuring, has_scene: bool, orders: &mut Vec<Order>) {
-    let Some((fraction, doing)) = measuring.progress() else {
-        let tip = "Builds the scene once more beside the picture: its octree and light take their memory twice, and \
-                   the picture shares the GPU until the end. From seconds to minutes; more runs take longer.";
-        if ui.add_enabled(has_scene, Button::new("Start")).on_hover_text(tip).clicked() {
-            orders.push(Order::Start);
-        }
-        return;
-    };
+    let progress = measuring.progress();
     ui.horizontal(|ui| {
-        if ui.button("Cancel").on_hover_text("What is measured stays.").clicked() {
-            orders.push(Order::Cancel);
+        let (name, tip, order) = match progress {
+            Some(_) => ("Cancel", "What is measured stays.", Order::Cancel),
+            None => (
+                "Start",
+                "Builds the scene once more beside the picture: its octree and light take their memory twice, and the \
+                 picture shares the GPU until the end. From seconds to minutes; more runs take longer.",
+                Order::Start,
+            ),
+        };
+        let button = ui.add_enabled(has_scene, Button::new(name).min_size(vec2(BUTTON_WIDTH, 0.0)));
+        if button.on_hover_text(tip).clicked() {
+            orders.push(order);
         }
-        ui.add(ProgressBar::new(fraction).desired_width(120.0).show_percentage());
+        if let Some((fraction, _)) = progress {
+            ui.add(ProgressBar::new(fraction).desired_width(120.0).show_percentage());
+        }
     });
-    ui.add(egui::Label::new(RichText::new(doing).color(theme::WEAK)).truncate());
+    let (note, tone) = match (progress, measuring.report()) {
+        (Some((_, doing)), _) => (doing, Tone::Weak),
+        (None, Some(report)) => (warnings(measuring, report), Tone::Warning),
+        (None, None) => ("Nothing is measured yet.".to_owned(), Tone::Weak),
+    };
+    ui.add(egui::Label::new(RichText::new(note).color(tone.of(ui))).truncate());
 }
 
-fn report_ui(ui: &mut Ui, (measuring, report): (&Measuring, &Report), orders: &mut Vec<Order>) {
-    if !measuring.is_of_shown() {
-        ui.label(RichText::new("It is of another scene, moment or other settings than shown.").color(theme::WARNING));
-    }
-    if report.cancelled {
-        ui.label(RichText::new("It was cancelled: rows are missing.").color(theme::WARNING));
-    }
+/// What a report is not; empty where it is all of what is shown.
+fn warnings(measuring: &Measuring, report: &Report) -> String {
+    let cancelled = report.cancelled.then_some("It was cancelled: rows are missing.");
+    let other = (!measuring.is_of_shown()).then_some("It is of another scene, moment or other settings than shown.");
+    cancelled.into_iter().chain(other).collect::<Vec<_>>().join(" ")
+}
+
+fn report_ui(ui: &mut Ui, measuring: &Measuring, orders: &mut Vec<Order>) {
     for table in measuring.tables().iter().filter(|table| !table.rows.is_empty()) {
         table_ui(ui, table);
     }

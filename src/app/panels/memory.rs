@@ -6,7 +6,7 @@ use egui::Ui;
 
 use super::table::{self, Cell};
 use super::{bytes, grouped};
-use crate::app::theme;
+use crate::app::palette::Tone;
 use crate::gpu::BufferUse;
 
 /// Buffers of one label count together; largest first.
@@ -21,9 +21,9 @@ pub fn ui(ui: &mut Ui, buffers: &[BufferUse]) {
     uses.sort_by_key(|(_, (_, total))| std::cmp::Reverse(*total));
     let total: u64 = uses.iter().map(|(_, (_, total))| total).sum();
     let mut rows = vec![vec![
-        Cell::new("All buffers").color(theme::STRONG),
-        Cell::new(grouped(buffers.len() as u64)).color(theme::STRONG),
-        Cell::new(bytes(total)).color(theme::STRONG),
+        Cell::new("All buffers").color(Tone::Strong),
+        Cell::new(grouped(buffers.len() as u64)).color(Tone::Strong),
+        Cell::new(bytes(total)).color(Tone::Strong),
     ]];
     rows.extend(uses.into_iter().map(|(label, (count, total))| {
         vec![

@@ -35,7 +35,7 @@ use egui::{
 };
 
 use super::command::Command;
-use super::theme;
+use super::palette::Tone;
 
 /// Of a list that is unfolded, before it scrolls.
 const LIST_HEIGHT: f32 = 400.0;
@@ -60,7 +60,7 @@ pub fn section_revealed(
     body: impl FnOnce(&mut Ui) -> Vec<Command>,
 ) -> Vec<Command> {
     let is_revealed = *revealed == Some(title);
-    let header = RichText::new(title).color(theme::STRONG).size(13.0);
+    let header = RichText::new(title).color(Tone::Strong.of(ui)).size(13.0);
     let shown = CollapsingHeader::new(header).id_salt(title).default_open(open).open(is_revealed.then_some(true));
     let shown = shown.show_unindented(ui, |ui| {
         ui.add_space(2.0);
@@ -88,7 +88,7 @@ pub fn control(ui: &mut Ui, name: &str, tip: &str, add: impl FnOnce(&mut Ui) -> 
             egui::Layout::left_to_right(egui::Align::Center),
             |ui| {
                 ui.set_min_width(NAME_WIDTH);
-                ui.label(RichText::new(name).color(theme::WEAK)).on_hover_text(tip)
+                ui.label(RichText::new(name).color(Tone::Weak.of(ui))).on_hover_text(tip)
             },
         );
         add(ui).labelled_by(label.inner.id).on_hover_text(tip)
@@ -164,14 +164,14 @@ pub fn named_number(response: &Response, value: f64, name: &str) {
 
 /// A row of a grid of two columns: name and value, cut where it is too long and whole in the tip.
 pub fn fact(ui: &mut Ui, name: &str, value: &str, tip: &str) {
-    ui.label(RichText::new(name).color(theme::WEAK));
+    ui.label(RichText::new(name).color(Tone::Weak.of(ui)));
     ui.add(egui::Label::new(value).truncate()).on_hover_text(tip);
     ui.end_row();
 }
 
 /// A line of text for something that is not there.
 pub fn nothing(ui: &mut Ui, text: &str) {
-    ui.label(RichText::new(text).color(theme::WEAK));
+    ui.label(RichText::new(text).color(Tone::Weak.of(ui)));
 }
 
 /// 1234567 as "1,234,567".
@@ -190,15 +190,6 @@ pub fn grouped(number: u64) -> String {
 /// "12.3 MiB".
 pub fn bytes(count: u64) -> String {
     bytesize::ByteSize::b(count).display().iec().to_string()
-}
-
-/// Three significant digits of milliseconds.
-pub fn milliseconds(ms: f64) -> String {
-    match ms {
-        ms if ms < 10.0 => format!("{ms:.2}"),
-        ms if ms < 100.0 => format!("{ms:.1}"),
-        ms => format!("{ms:.0}"),
-    }
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use egui::{Button, Grid, Link, RichText, Role, Ui, WidgetInfo};
 use super::{fact, grouped, nothing};
 use crate::app::command::Command;
 use crate::app::inspector::{Inspector, Pin};
-use crate::app::scale_ticks::short;
-use crate::app::theme;
+use crate::app::numbers::{fixed, short};
+use crate::app::palette::Tone;
 use crate::engine::{NodeAddress, NodeFacts, StoredNode};
 use crate::settings::Look;
 
@@ -83,7 +83,7 @@ fn payload_ui(ui: &mut Ui, facts: &NodeFacts) {
     if facts.node.is_dummy {
         return;
     }
-    let vector = |values: [f64; 3]| values.map(|value| format!("{value:.3}")).join("  ");
+    let vector = |values: [f64; 3]| values.map(|value| fixed(value, 3)).join("  ");
     fact(ui, "Occupancy", &format!("{:.6}", facts.occupancy), "The occupied share of its volume.");
     fact(ui, "Albedo", &vector(facts.albedo), "Linear red, green, blue: the mean of what is in it.");
     fact(ui, "Normal", &vector(facts.normal), "Mean: short where normals disagree.");
@@ -116,7 +116,7 @@ fn row_ui(ui: &mut Ui, name: &str, text: Option<String>, unless: Absent) -> bool
         absent_ui(ui, name, unless);
         return false;
     };
-    ui.label(RichText::new(name).color(theme::WEAK));
+    ui.label(RichText::new(name).color(Tone::Weak.of(ui)));
     let link = ui.add(Link::new(text));
     link.widget_info(|| WidgetInfo::labeled(Role::Link, true, name));
     ui.end_row();
@@ -125,7 +125,7 @@ fn row_ui(ui: &mut Ui, name: &str, text: Option<String>, unless: Absent) -> bool
 
 /// A name without a value.
 fn absent_ui(ui: &mut Ui, name: &str, Absent(text, tip): Absent) {
-    ui.label(RichText::new(name).color(theme::WEAK));
-    ui.label(RichText::new(text).color(theme::WEAK)).on_hover_text(tip);
+    ui.label(RichText::new(name).color(Tone::Weak.of(ui)));
+    ui.label(RichText::new(text).color(Tone::Weak.of(ui))).on_hover_text(tip);
     ui.end_row();
 }

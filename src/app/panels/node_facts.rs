@@ -5,13 +5,14 @@ use egui::{Grid, RichText, Ui};
 use super::light_editor::short_unit;
 use super::tree_row::TreePanel;
 use super::{fact, grouped};
-use crate::app::{outline, theme};
+use crate::app::outline;
+use crate::app::palette::Tone;
 use crate::prepare::PreparedObject;
 use crate::scene::{Motion, Projection, Scene};
 
 pub fn ui(ui: &mut Ui, panel: TreePanel<'_>, node: usize) {
     let scene = &panel.prepared.scene;
-    ui.label(RichText::new(outline::name(scene, node)).color(theme::STRONG));
+    ui.label(RichText::new(outline::name(scene, node)).color(Tone::Strong.of(ui)));
     Grid::new("node facts").num_columns(2).spacing([10.0, 2.0]).show(ui, |ui| {
         if let Some(mesh) = scene.nodes[node].mesh {
             mesh_ui(ui, scene, mesh);
@@ -27,7 +28,7 @@ pub fn ui(ui: &mut Ui, panel: TreePanel<'_>, node: usize) {
         below_ui(ui, panel, node);
     });
     for warning in panel.prepared.warnings.iter().filter(|warning| warning.nodes.binary_search(&node).is_ok()) {
-        ui.label(RichText::new(&warning.sentence).color(theme::WARNING));
+        ui.label(RichText::new(&warning.sentence).color(Tone::Warning.of(ui)));
     }
 }
 

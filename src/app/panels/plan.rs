@@ -1,9 +1,9 @@
 //! The frame plan: every pass, whether it runs, is reused or skipped, and why.
 
-use egui::{Color32, Ui};
+use egui::Ui;
 
 use super::table::{self, Cell};
-use crate::app::theme;
+use crate::app::palette::Tone;
 use crate::plan::{FramePlan, Pass, Row, State};
 
 pub fn ui(ui: &mut Ui, plan: &FramePlan) {
@@ -12,7 +12,7 @@ pub fn ui(ui: &mut Ui, plan: &FramePlan) {
         vec![
             Cell::new(name(row)).color(pass_color(row.state)).tip(kernels(row.pass)),
             Cell::new(state).color(color),
-            Cell::new(row.reason).color(theme::WEAK).tip(row.reason),
+            Cell::new(row.reason).color(Tone::Weak).tip(row.reason),
         ]
     });
     table::show(ui, "plan", &[("pass", 0.0), ("state", 34.0), ("reason", 160.0)], rows.collect());
@@ -26,16 +26,16 @@ fn name(row: &Row) -> String {
     }
 }
 
-fn state(state: State) -> (&'static str, Color32) {
+fn state(state: State) -> (&'static str, Tone) {
     match state {
-        State::Run => ("run", theme::ACCENT),
-        State::Reuse => ("reuse", theme::WARNING),
-        State::Skip => ("skip", theme::WEAK),
+        State::Run => ("run", Tone::Accent),
+        State::Reuse => ("reuse", Tone::Warning),
+        State::Skip => ("skip", Tone::Weak),
     }
 }
 
-fn pass_color(state: State) -> Color32 {
-    if state == State::Skip { theme::WEAK } else { theme::STRONG }
+fn pass_color(state: State) -> Tone {
+    if state == State::Skip { Tone::Weak } else { Tone::Strong }
 }
 
 fn kernels(pass: Pass) -> String {

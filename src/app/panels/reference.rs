@@ -1,19 +1,22 @@
 //! The path tracer beside the cones: starts and stops it, says how far it is and how sure, lays it over the
 //! picture, and lists how far cones are off.
 
-use egui::{Button, ProgressBar, RichText, Ui};
+use egui::{Button, ProgressBar, RichText, Ui, vec2};
 
 use super::table::{self, Cell};
-use super::{choice, control, milliseconds, nothing, number, slider, unless};
+use super::{choice, control, nothing, number, slider, unless};
 use crate::accuracy::picture_error::PictureError;
 use crate::app::command::Command;
+use crate::app::numbers::{duration, milliseconds, short};
+use crate::app::palette::Tone;
 use crate::app::reference::{Comparison, MeasuredPart, Order, PARTS, Reference, Traced};
-use crate::app::scale_ticks::short;
-use crate::app::theme;
 use crate::engine::PassTiming;
 use crate::experiment::SurfaceWork;
 use crate::plan::Part;
 use crate::settings::SurfaceView;
+
+/// Of Start and of Stop.
+const BUTTON_WIDTH: f32 = 48.0;
 
 pub struct ReferencePanel<'a> {
     pub reference: &'a Reference,
@@ -23,18 +26,17 @@ pub struct ReferencePanel<'a> {
     pub has_scene: bool,
 }
 
+/// All rows are there from the start, so that nothing moves when a run begins or ends.
 pub fn ui(ui: &mut Ui, panel: &ReferencePanel<'_>) -> Vec<Command> {
     let reference = panel.reference;
     let mut orders = Vec::new();
     run_ui(ui, panel, &mut orders);
-    let Some(traced) = reference.traced() else {
-        nothing(ui, "Nothing is traced yet.");
-        return orders.into_iter().map(Command::Reference).collect();
-    };
-    state_ui(ui, panel, traced);
+    restart_ui(ui, reference, &mut orders);
+    progress_ui(ui, reference);
+    state_ui(ui, panel);
     compare_ui(ui, panel, &mut orders);
-    errors_ui(ui, traced, reference.measured());
-    times_ui(ui, panel.timings, traced);
+    errors_ui(ui, reference.traced(), reference.measured());
+    times_ui(ui, panel.timings, reference.traced());
     orders.into_iter().map(Command::Reference).collect()
 }
 
@@ -44,21 +46,18 @@ fn run_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, orders: &mut Vec<Order>) {
     let tip = "Paths a pixel to end with; four times as many err half as much.";
     control(ui, "Samples", tip, |ui| {
         let response = ui.add(number(&mut samples, Reference::SAMPLES));
-        match reference.fraction() {
-            None => {
-                let start = ui.add_enabled(panel.has_scene, Button::new("Start"));
-                let tip = "Traces paths through the picture that is shown, on all cores but one; goes on where the \
-                           same picture was stopped.";
-                if start.on_hover_text(tip).clicked() {
-                    orders.push(Order::Start);
-                }
-            }
-            Some(fraction) => {
-                if ui.button("Stop").on_hover_text("What is traced stays.").clicked() {
-                    orders.push(Order::Stop);
-                }
-                ui.add(ProgressBar::new(fraction).desired_width(90.0).show_percentage());
-            }
+        let (name, tip, order) = match reference.fraction() {
+            None => (
+                "Start",
+                "Traces paths through the picture that is shown, on all cores but one; goes on where the same picture \
+                 was stopped.",
+                Order::Start,
+            ),
+            Some(_) => ("Stop", "What is traced is kept, and Start goes on from there.", Order::Stop),
+        };
+        let button = ui.add_enabled(panel.has_scene, Button::new(name).min_size(vec2(BUTTON_WIDTH, 0.0)));
+        if button.on_hover_text(tip).clicked() {
+            orders.push(order);
         }
         response
     });
@@ -67,17 +66,50 @@ fn run_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, orders: &mut Vec<Order>) {
     }
 }
 
-fn state_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, traced: &Traced) {
-    let error = traced.part(SurfaceView::Final).and_then(|part| part.relative_error);
-    let error = error.map_or(String::new(), |error| format!(", standard error {} %", short(100.0 * error)));
-    let plural = if traced.samples == 1 { "" } else { "s" };
-    ui.label(format!("{} sample{plural}, {} s{error}", traced.samples, short(traced.secs)))
-        .on_hover_text("Of a pixel: root mean square over the picture, in parts of its mean luminance.");
-    if !panel.reference.is_of_shown() {
-        ui.label(RichText::new("It is of another picture: camera, scene or light have changed.").color(theme::WARNING));
-    } else if !panel.is_surfaces {
-        nothing(ui, "The view \"Surfaces\" is compared with it.");
+fn restart_ui(ui: &mut Ui, reference: &Reference, orders: &mut Vec<Order>) {
+    let mut restarts = reference.restarts;
+    let tip = "Another camera, pose, scene or light is traced from the first sample on, once it rests: all cores but one \
+               stay at work, and what was traced before is lost. Without it, a run stops when its picture is gone.";
+    if ui.checkbox(&mut restarts, "Restart when the view changes").on_hover_text(tip).changed() {
+        orders.push(Order::Restart(restarts));
     }
+}
+
+/// As high where nothing is traced.
+fn progress_ui(ui: &mut Ui, reference: &Reference) {
+    ui.horizontal(|ui| {
+        let Some(fraction) = reference.fraction() else { return };
+        ui.add(ProgressBar::new(fraction).desired_width(150.0).show_percentage());
+        let left = reference.secs_left().map_or(String::new(), |secs| format!("about {} left", duration(secs)));
+        ui.label(RichText::new(left).color(Tone::Weak.of(ui)));
+    });
+}
+
+/// What there is, and what it is of: as high whatever it says.
+fn state_ui(ui: &mut Ui, panel: &ReferencePanel<'_>) {
+    let reference = panel.reference;
+    let samples = match reference.traced() {
+        None => RichText::new("Nothing is traced yet.").color(Tone::Weak.of(ui)),
+        Some(traced) => {
+            let error = traced.part(SurfaceView::Final).and_then(|part| part.relative_error);
+            let error = error.map_or(String::new(), |error| format!(", standard error {} %", short(100.0 * error)));
+            let plural = if traced.samples == 1 { "" } else { "s" };
+            RichText::new(format!("{} sample{plural}, {} s{error}", traced.samples, short(traced.secs)))
+        }
+    };
+    ui.label(samples).on_hover_text("Of a pixel: root mean square over the picture, in parts of its mean luminance.");
+    let lines = 2.0 * ui.text_style_height(&egui::TextStyle::Body);
+    ui.allocate_ui(vec2(ui.available_width(), lines), |ui| {
+        ui.set_min_height(lines);
+        if let Some(sentence) = reference.stopped() {
+            ui.label(RichText::new(sentence).color(Tone::Warning.of(ui)));
+        } else if reference.traced().is_some() && !reference.is_of_shown() {
+            let sentence = "It is of another picture: camera, scene or light have changed.";
+            ui.label(RichText::new(sentence).color(Tone::Warning.of(ui)));
+        } else if !panel.is_surfaces {
+            nothing(ui, "The view \"Surfaces\" is compared with it.");
+        }
+    });
 }
 
 fn compare_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, orders: &mut Vec<Order>) {
@@ -101,7 +133,7 @@ fn compare_ui(ui: &mut Ui, panel: &ReferencePanel<'_>, orders: &mut Vec<Order>) 
     });
 }
 
-fn errors_ui(ui: &mut Ui, traced: &Traced, measured: &[MeasuredPart]) {
+fn errors_ui(ui: &mut Ui, traced: Option<&Traced>, measured: &[MeasuredPart]) {
     let rows = PARTS.into_iter().map(|part| {
         let error = measured.iter().find(|measured| measured.part == part);
         let cell = |value: Option<f64>| Cell::new(value.map_or("–".to_owned(), short));
@@ -112,7 +144,7 @@ fn errors_ui(ui: &mut Ui, traced: &Traced, measured: &[MeasuredPart]) {
             of(|error| error.bias),
             of(|error| error.ssim),
             cell(error.and_then(|error| error.error.flip)),
-            cell(traced.part(part).and_then(|part| part.relative_error)),
+            cell(traced.and_then(|traced| traced.part(part)?.relative_error)),
         ]
     });
     let columns = [("part", 0.0), ("relMSE", 52.0), ("bias", 52.0), ("SSIM", 44.0), ("FLIP", 44.0), ("± paths", 50.0)];
@@ -129,14 +161,15 @@ fn name(part: SurfaceView) -> &'static str {
     }
 }
 
-fn times_ui(ui: &mut Ui, timings: &[PassTiming], traced: &Traced) {
+fn times_ui(ui: &mut Ui, timings: &[PassTiming], traced: Option<&Traced>) {
     let is_shown = |timing: &&PassTiming| timing.pass.parts() == [Part::Picture];
     let of_view: f64 = timings.iter().filter(is_shown).map(|timing| timing.kernel.ms).sum();
     let [of_cones, of_surfaces] =
         [&SurfaceWork::CONES[..], &SurfaceWork::ALL[..]].map(|works| SurfaceWork::sum_ms(works, timings));
     let (cones, picture) = (milliseconds(of_cones), milliseconds(of_surfaces + of_view));
-    let text = format!("Cones {cones} ms, all of the picture {picture} ms; paths {} s", short(traced.secs));
-    ui.label(RichText::new(text).color(theme::WEAK)).on_hover_text(
+    let paths = traced.map_or("–".to_owned(), |traced| format!("{} s", short(traced.secs)));
+    let text = format!("Cones {cones} ms, all of the picture {picture} ms; paths {paths}");
+    ui.label(RichText::new(text).color(Tone::Weak.of(ui))).on_hover_text(
         "Time on the GPU of the picture that is shown, octree and its light not counted; paths on the CPU.",
     );
 }

@@ -8,7 +8,8 @@ use super::path_field::path_field;
 use super::{bytes, fact, grouped, nothing};
 use crate::app::command::Command;
 use crate::app::loader::file_name;
-use crate::app::{folders, theme};
+use crate::app::folders;
+use crate::app::palette::Tone;
 use crate::data::voxel_cache::CacheVoxel;
 use crate::prepare::Prepared;
 use crate::scene::{Motion, Warning, builtin};
@@ -36,7 +37,7 @@ fn open_ui(ui: &mut Ui, (path, asks): (&mut String, bool), recent: &[PathBuf]) -
         commands.extend(recent_ui(ui, recent));
     });
     ui.horizontal(|ui| {
-        let name = ui.label(RichText::new("Path").color(theme::WEAK));
+        let name = ui.label(RichText::new("Path").color(Tone::Weak.of(ui)));
         let width = ui.available_width() - 56.0;
         let entered = path_field(ui, "scene path", path, width).labelled_by(name.id);
         let entered = entered.on_hover_text("Path of a .gltf or .glb file, or of a picture of one; Enter opens it.");
@@ -91,7 +92,7 @@ fn scenes_ui(ui: &mut Ui, prepared: &Prepared) -> Option<Command> {
     let shown = prepared.scene.shown_scene.filter(|_| names.len() > 1)?;
     let mut chosen = shown;
     ui.horizontal(|ui| {
-        let name = ui.label(RichText::new("Shown").color(theme::WEAK));
+        let name = ui.label(RichText::new("Shown").color(Tone::Weak.of(ui)));
         let combo = ComboBox::from_id_salt("scene of the file").selected_text(&names[shown]);
         let combo = combo.show_ui(ui, |ui| {
             for (number, name) in names.iter().enumerate() {
@@ -140,11 +141,11 @@ fn facts_ui(ui: &mut Ui, prepared: &Prepared) {
 }
 
 fn warnings_ui(ui: &mut Ui, warnings: &[Warning]) {
-    ui.label(RichText::new("Warnings").color(theme::WEAK));
+    ui.label(RichText::new("Warnings").color(Tone::Weak.of(ui)));
     if warnings.is_empty() {
         ui.label("none");
     } else {
-        let count = RichText::new(format!("{}, see the log", warnings.len())).color(theme::WARNING);
+        let count = RichText::new(format!("{}, see the log", warnings.len())).color(Tone::Warning.of(ui));
         ui.label(count).on_hover_text(warnings.iter().map(Warning::to_string).collect::<Vec<_>>().join("\n"));
     }
     ui.end_row();

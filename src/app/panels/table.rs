@@ -1,15 +1,15 @@
 //! A dense table: the first column takes the room that is left, numbers are aligned right.
 
-use egui::{Align, Color32, Layout, Rect, RichText, Ui, vec2};
+use egui::{Align, Layout, Rect, RichText, Ui, vec2};
 use egui_extras::{Column, TableBuilder};
 
-use crate::app::theme;
+use crate::app::palette::Tone;
 
 const ROW_HEIGHT: f32 = 17.0;
 
 pub struct Cell {
     text: String,
-    color: Option<Color32>,
+    color: Option<Tone>,
     tip: Option<String>,
     bar: f32,
 }
@@ -19,7 +19,7 @@ impl Cell {
         Self { text: text.into(), color: None, tip: None, bar: 0.0 }
     }
 
-    pub fn color(self, color: Color32) -> Self {
+    pub fn color(self, color: Tone) -> Self {
         Self { color: Some(color), ..self }
     }
 
@@ -36,9 +36,9 @@ impl Cell {
         if self.bar > 0.0 {
             let cell = ui.max_rect();
             let bar = Rect::from_x_y_ranges(cell.left()..=cell.left() + self.bar * cell.width(), cell.y_range());
-            ui.painter().rect_filled(bar.shrink2(vec2(0.0, 1.5)), 1.0, theme::ACCENT.gamma_multiply(0.45));
+            ui.painter().rect_filled(bar.shrink2(vec2(0.0, 1.5)), 1.0, Tone::Accent.of(ui).gamma_multiply(0.45));
         }
-        let text = RichText::new(&self.text).color(self.color.unwrap_or(ui.visuals().text_color()));
+        let text = RichText::new(&self.text).color(self.color.map_or(ui.visuals().text_color(), |tone| tone.of(ui)));
         let label = ui.add(egui::Label::new(text).truncate().selectable(false));
         if let Some(tip) = &self.tip {
             label.on_hover_text(tip);
@@ -61,7 +61,7 @@ pub fn show(ui: &mut Ui, id: &str, columns: &[(&str, f32)], rows: Vec<Vec<Cell>>
     }
     let header = table.header(ROW_HEIGHT, |mut row| {
         for (index, (name, _)) in columns.iter().enumerate() {
-            row.col(|ui| aligned(ui, index, |ui| Cell::new(*name).color(theme::WEAK).show(ui)));
+            row.col(|ui| aligned(ui, index, |ui| Cell::new(*name).color(Tone::Weak).show(ui)));
         }
     });
     header.body(|body| {

@@ -6,7 +6,7 @@ use super::icon::{self, Icon};
 use super::named_number;
 use crate::app::command::Command;
 use crate::app::playback::Playback;
-use crate::app::theme;
+use crate::app::palette::{self, Tone};
 use crate::scene::Clip;
 use crate::settings::MotionSettings;
 
@@ -117,16 +117,16 @@ fn turn_and_scrub_ui(
 /// The picture follows the timeline: how far it has come.
 fn picture_time_ui(ui: &mut Ui, shown_secs: Option<f64>, wanted_secs: f64) {
     let Some(shown_secs) = shown_secs else { return };
-    let color = if shown_secs == wanted_secs { theme::WEAK } else { theme::WARNING };
+    let color = if shown_secs == wanted_secs { Tone::Weak } else { Tone::Warning };
     // As wide for every time, so that nothing beside it moves.
-    let text = egui::RichText::new(format!("shown {shown_secs:>7.3} s")).color(color).monospace();
+    let text = egui::RichText::new(format!("shown {shown_secs:>7.3} s")).color(color.of(ui)).monospace();
     let tip = "The time that the picture on screen shows; the timeline may be ahead of it.";
     ui.label(text).on_hover_text(tip);
 }
 
 fn turn_ui(ui: &mut Ui, motion: &MotionSettings) -> Option<Command> {
     let mut turn = motion.turn_degrees;
-    let axes = ["Turn x", "Turn y", "Turn z"].into_iter().zip(theme::AXES);
+    let axes = ["Turn x", "Turn y", "Turn z"].into_iter().zip(palette::axes(ui));
     for (degrees, (name, color)) in turn.iter_mut().zip(axes).rev() {
         let drag = DragValue::new(degrees).speed(0.5).range(-360.0..=360.0).max_decimals(2).suffix("°");
         let response =

@@ -4,10 +4,11 @@ use egui::{RichText, Ui};
 use egui_plot::{Bar, BarChart, GridMark, Plot};
 
 use super::table::{self, Cell};
-use super::{bytes, grouped, milliseconds, nothing};
+use super::{bytes, grouped, nothing};
 use crate::app::history::{FrameHistory, KernelSum, LENGTH, by_kernel, total_ms};
 use crate::app::latency::Latency;
-use crate::app::theme;
+use crate::app::numbers::{fixed, milliseconds};
+use crate::app::palette::Tone;
 use crate::engine::PassTiming;
 
 /// `timings`: of the results on screen, which frames before `last_frame` may have made.
@@ -20,8 +21,8 @@ pub fn ui(ui: &mut Ui, (timings, last_frame): (&[PassTiming], u64), history: &Fr
     history_ui(ui, history);
     let total = total_ms(timings);
     let mut rows = vec![vec![
-        Cell::new("All on screen").color(theme::STRONG).tip("Bright: run by the last frame. Grey: kept from before."),
-        Cell::new(milliseconds(total)).color(theme::STRONG),
+        Cell::new("All on screen").color(Tone::Strong).tip("Bright: run by the last frame. Grey: kept from before."),
+        Cell::new(milliseconds(total)).color(Tone::Strong),
         Cell::new(""),
         Cell::new(""),
     ]];
@@ -35,7 +36,7 @@ fn latency_ui(ui: &mut Ui, latency: &Latency) {
         _ => "not measured yet".to_owned(),
     };
     let row = ui.horizontal(|ui| {
-        ui.label(RichText::new("Input to paint").color(theme::WEAK));
+        ui.label(RichText::new("Input to paint").color(Tone::Weak.of(ui)));
         ui.label(text);
     });
     let tip =
@@ -46,7 +47,7 @@ fn latency_ui(ui: &mut Ui, latency: &Latency) {
 /// A bar a frame; the tallest gives the scale.
 fn history_ui(ui: &mut Ui, history: &FrameHistory) {
     let bars = history.gpu_ms().enumerate().map(|(frame, ms)| Bar::new(frame as f64, ms).width(0.8));
-    let chart = BarChart::new("GPU time", bars.collect()).color(theme::ACCENT).allow_hover(false);
+    let chart = BarChart::new("GPU time", bars.collect()).color(Tone::Accent.of(ui)).allow_hover(false);
     let most = history.gpu_ms().fold(1.0, f64::max);
     let marks = move |_| [0.0, most / 2.0, most].map(|value| GridMark { value, step_size: most }).to_vec();
     let plot = Plot::new("gpu history")
@@ -74,11 +75,11 @@ fn row(KernelSum { timing: kernel, .. }: &KernelSum, total_ms: f64, has_run: boo
     let rate = kernel.bytes_moved as f64 / (kernel.ms * 1e6);
     let tip =
         format!("{}: {} threads, must move {}", kernel.kernel, grouped(kernel.threads), bytes(kernel.bytes_moved));
-    let color = if has_run { theme::STRONG } else { theme::WEAK };
+    let color = if has_run { Tone::Strong } else { Tone::Weak };
     vec![
         Cell::new(&kernel.kernel).color(color).tip(tip),
         Cell::new(milliseconds(kernel.ms)).color(color),
-        Cell::new(format!("{:.0} %", share * 100.0)).bar(share as f32),
-        if kernel.bytes_moved > 0 && rate.is_finite() { Cell::new(format!("{rate:.1}")) } else { Cell::new("–") },
+        Cell::new(format!("{} %", fixed(share * 100.0, 0))).bar(share as f32),
+        if kernel.bytes_moved > 0 && rate.is_finite() { Cell::new(fixed(rate, 1)) } else { Cell::new("–") },
     ]
 }

@@ -8,7 +8,7 @@ use super::tree_row::{Offer, TreePanel, TreeRow, offers};
 use super::{node_facts, nothing};
 use crate::app::command::Command;
 use crate::app::outline;
-use crate::app::theme;
+use crate::app::palette::Tone;
 use crate::scene::Scene;
 
 /// What a person has selected, searched and unfolded.
@@ -64,7 +64,7 @@ pub fn ui(ui: &mut Ui, panel: TreePanel<'_>, state: &mut TreeState) -> Vec<Comma
     );
     egui::CentralPanel::no_frame().show(ui, |ui| {
         ui.horizontal(|ui| {
-            let name = ui.label(RichText::new("Find").color(theme::WEAK));
+            let name = ui.label(RichText::new("Find").color(Tone::Weak.of(ui)));
             let field =
                 TextEdit::singleline(&mut state.search).hint_text("part of a name").desired_width(f32::INFINITY);
             ui.add(field).labelled_by(name.id).on_hover_text("Lists the nodes whose names hold this.");

@@ -1,11 +1,11 @@
 //! A row of the scene tree: a node's name, what it carries in a word each, and its menu.
 
-use egui::{Color32, Label, RichText, Ui};
+use egui::{Label, RichText, Ui};
 use egui_ltreeview::NodeConfig;
 
 use crate::app::command::Command;
 use crate::app::outline::{self, Outline};
-use crate::app::theme;
+use crate::app::palette::Tone;
 use crate::prepare::Prepared;
 use crate::settings::Visibility;
 
@@ -69,16 +69,16 @@ impl<'a> TreeRow<'a> {
     }
 
     /// From right to left.
-    fn tags(&self) -> impl Iterator<Item = (&'static str, Color32)> + use<> {
+    fn tags(&self) -> impl Iterator<Item = (&'static str, Tone)> + use<> {
         let node = &self.panel.prepared.scene.nodes[self.node];
         let outline = self.panel.outline;
         let tags = [
-            (outline.is_warned[self.node], "!", theme::WARNING),
-            (node.light.is_some(), "light", theme::TAG_LIGHT),
-            (node.camera.is_some(), "camera", theme::TAG_CAMERA),
-            (outline.is_joint[self.node], "joint", theme::TAG_JOINT),
-            (node.skin.is_some(), "skin", theme::TAG_JOINT),
-            (node.mesh.is_some(), "mesh", theme::ACCENT),
+            (outline.is_warned[self.node], "!", Tone::Warning),
+            (node.light.is_some(), "light", Tone::Light),
+            (node.camera.is_some(), "camera", Tone::Camera),
+            (outline.is_joint[self.node], "joint", Tone::Joint),
+            (node.skin.is_some(), "skin", Tone::Joint),
+            (node.mesh.is_some(), "mesh", Tone::Accent),
         ];
         tags.into_iter().filter(|(is_there, ..)| *is_there).map(|(_, tag, color)| (tag, color))
     }
@@ -104,7 +104,7 @@ impl NodeConfig<usize> for TreeRow<'_> {
     fn label(&mut self, ui: &mut Ui) {
         let mut text = RichText::new(outline::name(&self.panel.prepared.scene, self.node));
         if !self.is_shown {
-            text = text.color(theme::WEAK).strikethrough();
+            text = text.color(Tone::Weak.of(ui)).strikethrough();
         }
         ui.add(Label::new(text).selectable(false).truncate());
     }
@@ -112,8 +112,8 @@ impl NodeConfig<usize> for TreeRow<'_> {
     fn accessory(&mut self, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 4.0;
         for (tag, color) in self.tags() {
-            let color = if self.is_shown { color } else { theme::WEAK };
-            ui.add(Label::new(RichText::new(tag).color(color).small()).selectable(false));
+            let color = if self.is_shown { color } else { Tone::Weak };
+            ui.add(Label::new(RichText::new(tag).color(color.of(ui)).small()).selectable(false));
         }
     }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::measuring::{self, ConeParts, OfParts};
 use super::pictures::{self, ConePicture, OfPicture};
 use super::tracing::Run;
-use super::{Overlay, PARTS, Reference, Seen, Tracing};
+use super::{Cause, Overlay, PARTS, Reference, Seen, Stopped, Tracing};
 use crate::accuracy::picture_error::Display;
 use crate::app::background::{Background, Outcome};
 use crate::app::pace::PROGRESS_STEP;
@@ -26,6 +26,8 @@ pub struct ShownSurfaces<'a> {
     pub is_finished: bool,
     /// Nobody is at work.
     pub is_quiet: bool,
+    /// Nothing plays: the picture stays what it is.
+    pub is_still: bool,
 }
 
 impl Reference {
@@ -36,6 +38,7 @@ impl Reference {
             self.start(ctx, shown);
         }
         self.is_of_shown = self.seen.as_ref().is_some_and(|seen| seen.is(&shown.seen));
+        self.keep_to(ctx, shown);
         let looks = &shown.seen.settings.method.look;
         self.is_compared = self.is_of_shown && looks.view == View::Surfaces && PARTS.contains(&looks.surface);
         self.is_behind = self.is_compared && self.traced.is_some();
@@ -72,14 +75,40 @@ impl Reference {
             return Ok(());
         }
         self.run = None;
+        let stopping = self.stopping.take();
         match outcome {
             Outcome::Running => Ok(()),
             Outcome::Done(Ok(ended)) => {
+                let (samples, of) = (ended.film.samples(), self.asked);
+                self.stopped = stopping.filter(|_| samples < of).map(|cause| Stopped { cause, samples, of });
                 self.kept = Some(ended.film);
                 ended.warning.map_or(Ok(()), Err)
             }
             Outcome::Done(Err(sentence)) => Err(sentence),
             Outcome::Died => Err("the path tracer ended unexpectedly".to_owned()),
+        }
+    }
+
+    /// A run whose picture is gone stops: nothing could be compared with it. Where a person wants that, the picture
+    /// that is shown now is traced instead, once it rests.
+    fn keep_to(&mut self, ctx: &egui::Context, shown: &ShownSurfaces<'_>) {
+        self.is_restart_due = false;
+        if self.is_of_shown {
+            return;
+        }
+        self.stop(Cause::PictureGone);
+        self.is_restart_due = self.restarts && self.is_wanted && shown.is_finished && shown.is_still;
+        if self.is_restart_due && shown.is_quiet {
+            self.start(ctx, shown);
+            (self.is_restart_due, self.is_of_shown) = (false, true);
+        }
+    }
+
+    /// Asks a run that goes on to end soon.
+    pub(super) fn stop(&mut self, cause: Cause) {
+        if let Some(run) = &self.run {
+            run.stop();
+            self.stopping.get_or_insert(cause);
         }
     }
 
@@ -89,6 +118,7 @@ impl Reference {
             (self.kept, self.traced) = (None, None);
         }
         self.seen = Some(shown.seen.clone());
+        (self.asked, self.stopping, self.stopped) = (self.samples, None, None);
         let disk = shown.disk.cloned();
         let run = Run { seen: shown.seen.clone(), film: self.kept.take(), samples: self.samples, disk };
         self.run = Some(Tracing::start(ctx, run));

@@ -16,6 +16,7 @@ mod order;
 mod overlay;
 mod pictures;
 mod seen;
+mod stopped;
 mod tracing;
 
 use std::sync::Arc;
@@ -30,6 +31,7 @@ pub use self::order::{Comparison, Order};
 use self::overlay::Overlay;
 use self::pictures::{ConePicture, OfPicture, Pictures};
 pub use self::seen::Seen;
+use self::stopped::{Cause, Stopped};
 use self::tracing::Tracing;
 pub use self::tracing::{PARTS, Traced};
 use crate::accuracy::path_tracer::Film;
@@ -41,13 +43,24 @@ pub struct Reference {
     pub comparison: Comparison,
     pub divider: f32,
     pub samples: u32,
+    /// Traces what is shown, whenever that is another picture.
+    pub restarts: bool,
     is_ordered: bool,
+    /// A person wants a reference, and has not stopped it since.
+    is_wanted: bool,
+    /// Waits for the picture that is to be traced next.
+    is_restart_due: bool,
     /// What was traced, or is being; whether that is what is shown.
     seen: Option<Seen>,
     is_of_shown: bool,
     /// It is, and a part of it is shown that paths tell apart.
     is_compared: bool,
     run: Option<Tracing>,
+    /// Samples that the last run was to end with.
+    asked: u32,
+    /// Why the run was told to stop.
+    stopping: Option<Cause>,
+    stopped: Option<Stopped>,
     kept: Option<Film>,
     traced: Option<Arc<Traced>>,
     /// What the engine shows, and which of its results that is.
@@ -67,11 +80,17 @@ impl Default for Reference {
             comparison: Comparison::default(),
             divider: 0.5,
             samples: 64,
+            restarts: false,
             is_ordered: false,
+            is_wanted: false,
+            is_restart_due: false,
             seen: None,
             is_of_shown: false,
             is_compared: false,
             run: None,
+            asked: 0,
+            stopping: None,
+            stopped: None,
             kept: None,
             traced: None,
             cones: None,
@@ -89,8 +108,12 @@ impl Reference {
 
     pub fn apply(&mut self, order: Order) {
         match order {
-            Order::Start => self.is_ordered = true,
-            Order::Stop => self.run.iter().for_each(Tracing::stop),
+            Order::Start => (self.is_ordered, self.is_wanted) = (true, true),
+            Order::Stop => {
+                self.is_wanted = false;
+                self.stop(Cause::Person);
+            }
+            Order::Restart(restarts) => self.restarts = restarts,
             Order::Samples(samples) => self.samples = samples,
             Order::Compare(comparison) => self.comparison = comparison,
             Order::Divide(divider) => self.divider = divider,
@@ -100,6 +123,17 @@ impl Reference {
     /// How far a run is that goes on, between 0 and 1.
     pub fn fraction(&self) -> Option<f32> {
         self.run.as_ref().map(Tracing::fraction)
+    }
+
+    /// How long a run will take that goes on, by what it took so far.
+    pub fn secs_left(&self) -> Option<f64> {
+        self.run.as_ref().and_then(Tracing::secs_left)
+    }
+
+    /// What the last run was stopped at, if it was.
+    pub fn stopped(&self) -> Option<String> {
+        let stopped = self.stopped.filter(|stopped| stopped.cause == Cause::PictureGone || self.is_of_shown);
+        stopped.map(|stopped| stopped.sentence())
     }
 
     /// What paths have said so far, whatever is shown now.
@@ -120,7 +154,7 @@ impl Reference {
 
     /// Work that goes on, or waits for the picture or for a person to rest.
     pub fn is_busy(&self) -> bool {
-        self.is_ordered || self.run.is_some() || self.is_behind()
+        self.is_ordered || self.run.is_some() || self.is_restart_due || self.is_behind()
     }
 
     /// What is laid over the picture is not of its last state.

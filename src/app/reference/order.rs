@@ -19,6 +19,8 @@ pub enum Order {
     /// Traces the picture that is shown, or goes on with it.
     Start,
     Stop,
+    /// Whether another picture that is shown is traced in the place of the one before.
+    Restart(bool),
     /// Samples a pixel to end with.
     Samples(u32),
     Compare(Comparison),

@@ -19,6 +19,9 @@ pub const PARTS: [SurfaceView; 5] =
 /// Between pictures that are published, beside those of 1, 2, 4 … samples.
 const PUBLISH_STEP: Duration = Duration::from_secs(4);
 
+/// What a run must have taken before it tells how long it will.
+const LEAST_TIME: Duration = Duration::from_secs(1);
+
 /// What paths have said so far.
 pub struct Traced {
     pub samples: u32,
@@ -75,6 +78,7 @@ type Published = Arc<Mutex<Option<Arc<Traced>>>>;
 pub struct Tracing {
     work: Background<Result<Ended, String>>,
     published: Published,
+    started: Instant,
 }
 
 impl Tracing {
@@ -86,7 +90,7 @@ impl Tracing {
             waker.request_repaint();
         };
         let work = Background::start(ctx, move |progress| trace(run, progress, &publish));
-        Self { work, published }
+        Self { work, published, started: Instant::now() }
     }
 
     /// What was published since the last call.
@@ -107,6 +111,15 @@ impl Tracing {
     pub fn fraction(&self) -> f32 {
         self.work.fraction()
     }
+
+    /// By what it took so far; `None` while that is too little to tell.
+    pub fn secs_left(&self) -> Option<f64> {
+        secs_left(self.started.elapsed(), f64::from(self.fraction()))
+    }
+}
+
+fn secs_left(took: Duration, done: f64) -> Option<f64> {
+    (took >= LEAST_TIME && done > 0.0).then(|| took.as_secs_f64() * (1.0 - done) / done)
 }
 
 fn trace(run: Run, progress: &Progress, publish: &(impl Fn(Traced) + Sync)) -> Result<Ended, String> {
@@ -150,4 +163,17 @@ fn step(scene: &TracedScene<'_>, film: &mut Film, samples: u32, progress: &Progr
         publish(film);
     }
     is_whole
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_follows_from_what_is_done() {
+        assert_eq!(secs_left(Duration::from_secs(10), 0.25), Some(30.0));
+        assert_eq!(secs_left(Duration::from_secs(10), 1.0), Some(0.0));
+        assert_eq!(secs_left(Duration::from_secs(10), 0.0), None, "nothing is done");
+        assert_eq!(secs_left(Duration::from_millis(10), 0.5), None, "too early to tell");
+    }
 }
