@@ -117,9 +117,9 @@ fn turn_and_scrub_ui(
 /// The picture follows the timeline: how far it has come.
 fn picture_time_ui(ui: &mut Ui, shown_secs: Option<f64>, wanted_secs: f64) {
     let Some(shown_secs) = shown_secs else { return };
-    let color = if shown_secs == wanted_secs { Tone::Weak } else { Tone::Warning };
+    let tone = if shown_secs == wanted_secs { Tone::Weak } else { Tone::Warning };
     // As wide for every time, so that nothing beside it moves.
-    let text = egui::RichText::new(format!("shown {shown_secs:>7.3} s")).color(color.of(ui)).monospace();
+    let text = egui::RichText::new(format!("shown {shown_secs:>7.3} s")).color(tone.of(ui)).monospace();
     let tip = "The time that the picture on screen shows; the timeline may be ahead of it.";
     ui.label(text).on_hover_text(tip);
 }
