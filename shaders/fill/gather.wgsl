@@ -55,7 +55,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
             if (w.x.x | w.x.y) == 0u || (w.y.x | w.y.y) == 0u || (w.z.x | w.z.y) == 0u {
                 continue;
             }
-            let color = vec4<u32>(unpack_rgb8(voxel.w), 1u);
+            let color = vec4<u32>(albedo_units(voxel.w), 1u);
             let normal = unpack_biased(voxel.z);
             let gap = uncovered(voxel.w);
             let xy = vec4<u32>(w.x * w.y.x, w.x * w.y.y);

@@ -47,7 +47,7 @@ fn sum_leaf(first: u32, end: u32, leaf: u32, block_cell: vec3<i32>) -> LeafSum {
         let w = block_weights(sorted_voxels[i].xy, block_cell);
         let packed = sorted_voxels[i].zw;
         let weight = covered_weight(w.x[offset.x] * w.y[offset.y] * w.z[offset.z], uncovered(packed.y));
-        sum = add_fragment(sum, weight, vec4<u32>(unpack_rgb8(packed.y), 1u), unpack_biased(packed.x));
+        sum = add_fragment(sum, weight, vec4<u32>(albedo_units(packed.y), 1u), unpack_biased(packed.x));
     }
     return sum;
 }
@@ -77,7 +77,7 @@ fn resolve_total(leaf: u32) -> Leaf {
         means[channel] = wide_rounded_quotient(total(leaf, channel), w);
     }
     let occupancy = select(min(w.x, FULL_WEIGHT), FULL_WEIGHT, w.y != 0u);
-    let albedo = pack_rgb8(vec3<u32>(means[0], means[1], means[2]));
+    let albedo = pack_albedo(vec3<u32>(means[0], means[1], means[2]));
     return Leaf(occupancy, albedo, pack_biased(vec3<u32>(means[4], means[5], means[6])));
 }
 

@@ -2,7 +2,7 @@
 // With IRRADIANCE, the irradiance itself, for the view of it. A thread a leaf.
 #import shared/threads.wgsl
 #import shared/octree.wgsl
-#import shared/packing.wgsl
+#import shared/albedo.wgsl
 
 struct InjectParams {
     // Of leaf_emission's 1, nits.
@@ -37,7 +37,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     }
     var leaving = arriving;
     if !IRRADIANCE {
-        leaving = vec3<f32>(unpack_rgb8(leaves[3u * slot + 1u])) / 255.0 * INVERSE_PI * arriving;
+        leaving = unpack_albedo(leaves[3u * slot + 1u]) * INVERSE_PI * arriving;
         if EMISSION {
             let emitted = vec3<f32>(leaf_emission[3u * slot], leaf_emission[3u * slot + 1u], leaf_emission[3u * slot + 2u]);
             leaving += params.emission_nits * emitted;

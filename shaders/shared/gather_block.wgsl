@@ -16,8 +16,8 @@ fn write_leaf(writer: BlockWriter, leaf: Leaf) -> BlockWriter {
     leaves[3u * writer.slot] = leaf.occupancy;
     leaves[3u * writer.slot + 1u] = leaf.albedo;
     leaves[3u * writer.slot + 2u] = leaf.normal;
-    let albedo = ALBEDO_NODE_SCALE * unpack_rgb8(leaf.albedo);
-    return BlockWriter(writer.slot + 1u, add_child(writer.sum, leaf.occupancy, 0u, albedo, unpack_biased(leaf.normal)));
+    let sum = add_child(writer.sum, leaf.occupancy, 0u, unpack_biased(leaf.albedo), unpack_biased(leaf.normal));
+    return BlockWriter(writer.slot + 1u, sum);
 }
 
 fn begin_block(block: u32) -> BlockWriter {

@@ -1,5 +1,6 @@
 // Exact sums of what falls into one leaf. A weight (up to 2^24) is split in two 12-bit halves, so
-// that each product fits: MAX_FRAGMENTS · 4096 · 1022 < 2^32. sum = 4096·high + low, divided once.
+// that each product fits: MAX_FRAGMENTS · 4096 · 16256 < 2^32. sum = 4096·high + low, divided once.
+#import shared/albedo.wgsl
 #import shared/packing.wgsl
 
 const HALF_BITS: u32 = 12u;
@@ -18,7 +19,7 @@ fn empty_leaf() -> LeafSum {
     return LeafSum(vec4<u32>(0u), vec4<u32>(0u), vec3<u32>(0u), vec3<u32>(0u));
 }
 
-// `color` is albedo in 0 ..= 255 with 1 in w, `normal` biased.
+// `color` is albedo in units with 1 in w, `normal` biased.
 fn add_fragment(sum: LeafSum, weight: u32, color: vec4<u32>, normal: vec3<u32>) -> LeafSum {
     let high = weight >> HALF_BITS;
     let low = weight & HALF_MASK;
@@ -46,12 +47,12 @@ fn rounds_up(s: vec2<u32>, quotient: u32, w: vec2<u32>) -> bool {
 fn rounded_quotient(s_high: u32, s_low: u32, w: vec2<u32>) -> u32 {
     let s = carried(s_high, s_low);
     let guess = (f32(s.x) * 4096.0 + f32(s.y)) / (f32(w.x) * 4096.0 + f32(w.y));
-    // The guess is off by less than 1/1000, so its floor never exceeds the rounded quotient.
+    // The guess is off by less than 1/100, so its floor never exceeds the rounded quotient.
     let quotient = u32(floor(guess));
     return quotient + select(0u, 1u, rounds_up(s, quotient, w));
 }
 
-// A resolved leaf, three words: occupancy (2^24 is full, clamped), albedo rgb8, mean biased normal.
+// A resolved leaf, three words: occupancy (2^24 is full, clamped), albedo, mean biased normal.
 struct Leaf {
     occupancy: u32,
     albedo: u32,
@@ -77,5 +78,5 @@ fn resolve_leaf(sum: LeafSum) -> Leaf {
     if w.x < (FULL_WEIGHT >> HALF_BITS) {
         occupancy = (w.x << HALF_BITS) | w.y;
     }
-    return Leaf(occupancy, pack_rgb8(albedo), pack_biased(normal));
+    return Leaf(occupancy, pack_albedo(albedo), pack_biased(normal));
 }

@@ -33,11 +33,3 @@ fn pack_normal(normal: vec3<f32>) -> u32 {
     let rounded = vec3<i32>(floor(clamp(unit, vec3(-1.0), vec3(1.0)) * f32(NORMAL_MAX) + 0.5));
     return pack_biased(vec3<u32>(rounded + vec3<i32>(i32(NORMAL_MAX))));
 }
-
-fn unpack_rgb8(packed: u32) -> vec3<u32> {
-    return (vec3<u32>(packed) >> vec3<u32>(0u, 8u, 16u)) & vec3<u32>(0xffu);
-}
-
-fn pack_rgb8(color: vec3<u32>) -> u32 {
-    return color.x | (color.y << 8u) | (color.z << 16u);
-}

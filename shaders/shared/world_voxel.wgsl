@@ -2,7 +2,7 @@
 //
 //   word 0  qx 19 | qy low 13        q + 256 = 256·(cell + 1) + fraction, per axis: the guard layer
 //   word 1  qy high 6 | qz 19        of one cell keeps base −1 representable
-//   word 2  normal, packed           word 3  albedo, rgb8, and coverage 8
+//   word 2  normal, packed           word 3  albedo r 8 | g 8 | b 8 | coverage 8
 //
 // One quotient, then cell and fraction of that same number (Eq. 2): q >> 8 and q & 255.
 #import constants

@@ -3,6 +3,7 @@
 // textures. Out: a texel a pixel. Entry points `rigid` and `skinned` differ in how a vertex moves.
 #import shared/packing.wgsl
 #import shared/octahedral.wgsl
+#import shared/albedo.wgsl
 #import shared/base_color.wgsl
 #import shared/lens.wgsl
 
@@ -62,7 +63,7 @@ fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
     let handed = select(1.0, -1.0, ((v.tangent & LEFT_HANDED) != 0u) != is_mirrored(m));
     let tangent = vec4<f32>(unit(moved_direction(unpack_normal(v.tangent), m)), handed);
     let clip = surface.clip_from_camera * vec4<f32>(position, 1.0);
-    let color = unpack4x8unorm(v.color);
+    let color = unpack_color(v.color);
     let mirrored = u32(is_mirrored(m));
     return Vertex(clip, position, normal, tangent, v.tex_coords, color, vec3<f32>(0.0), vec4<f32>(0.0), mirrored);
 }

@@ -1,6 +1,7 @@
 // Shows the octree (Fig. 8): a ray a pixel blends the voxels it crosses, front to back, occupancy as
 // alpha, at the leaves or any level above them. In: the octree, a view. Out: the picture,
 // gamma-encoded, and the distance to where half of the light is stopped.
+#import shared/albedo.wgsl
 #import shared/occupied_nodes.wgsl
 #import shared/leaf_slot.wgsl
 #import shared/march.wgsl
@@ -51,7 +52,7 @@ fn leaf_voxel(key: u32) -> Voxel {
         let object = OBJECT_MASK - (leaf_objects[slot] & OBJECT_MASK);
         return Voxel(occupancy, palette.colors[object & 255u].rgb, normal);
     }
-    let albedo = vec3<f32>(unpack_rgb8(leaves[3u * slot + 1u])) / 255.0;
+    let albedo = unpack_albedo(leaves[3u * slot + 1u]);
     return Voxel(occupancy, painted(albedo, occupancy, normal), normal);
 }
 
@@ -59,7 +60,7 @@ fn node_voxel(level: u32, key: u32) -> Voxel {
     let node = nodes[node_index(level, key)];
     let sum = wide_to_float(node.xy);
     let occupancy = sum / (f32(FULL_WEIGHT) * exp2(3.0 * f32(octree.depth - level)));
-    let albedo = vec3<f32>(unpack_biased(node.z)) / (255.0 * f32(ALBEDO_NODE_SCALE));
+    let albedo = unpack_albedo(node.z);
     let normal = unpack_normal(node.w);
     return Voxel(occupancy, painted(albedo, occupancy, normal), normal);
 }

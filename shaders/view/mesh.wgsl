@@ -3,6 +3,7 @@
 // vertex moves; the second exists only where a scene has skins.
 #import shared/view.wgsl
 #import shared/posed_vertex.wgsl
+#import shared/albedo.wgsl
 #import shared/base_color.wgsl
 #import shared/lens.wgsl
 
@@ -45,7 +46,7 @@ fn placed(v: MeshVertex, m: MeshMatrix) -> Vertex {
     let unit = normal * inverseSqrt(max(dot(normal, normal), 1e-37));
     let uv = slot_uv(draw.base_color_slot, v.tex_coords);
     let clip = mesh.clip_from_camera * vec4<f32>(position, 1.0);
-    return Vertex(clip, position, unit, uv, unpack4x8unorm(v.color), u32(is_mirrored(m)));
+    return Vertex(clip, position, unit, uv, unpack_color(v.color), u32(is_mirrored(m)));
 }
 
 @fragment

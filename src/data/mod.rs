@@ -1,5 +1,6 @@
 //! What lives between stages, each with its memory layout drawn.
 
+pub mod albedo;
 pub mod grid;
 pub mod light;
 pub mod matrix;

@@ -13,7 +13,7 @@
 //! nodes       4 words an inner node, see shaders/shared/node.wgsl
 //! block_counts  2 words a leaf block: its sorted voxels (in the topology's 0, the payload counts), its leaves
 //! block_starts  2 words a leaf block: its first sorted voxel, its first leaf; totals at the end
-//! leaves      3 words an *occupied* leaf: occupancy (2^24 = full), albedo rgb8, normal 10|10|10
+//! leaves      3 words an *occupied* leaf: occupancy (2^24 = full), albedo and normal 10|10|10
 //! neighbours  3 words a block: rank of the block ahead along x, y, z; NO_BLOCK = none (section 4.4)
 //! node_neighbours  3 words a sparse node, leaves too: index of the node ahead, as in the paper
 //! ```
@@ -36,13 +36,10 @@ pub const FRACTION_BITS: u32 = 8;
 pub const MAX_DEPTH: u32 = 10;
 /// "Not allocated", wherever a block or node index may be absent.
 pub const NO_BLOCK: u32 = u32::MAX;
-/// Inner nodes hold albedo in units of 1/1020: four to a leaf's 1/255.
-pub const ALBEDO_NODE_SCALE: u32 = 4;
-/// Voxels that one thread may sum in two 12-bit halves without a carry: 1024 · 4096 · 1022 < 2^32.
-pub const MAX_FRAGMENTS: u32 = 1024;
+/// Voxels that one thread may sum in two 12-bit halves without a carry: 64 · 4096 · 16256 < 2^32.
+pub const MAX_FRAGMENTS: u32 = 64;
 
 pub const CONSTANTS: &[Constant] = constants![
-    integer ALBEDO_NODE_SCALE,
     integer FRACTION_BITS,
     integer FRACTION_ONE = 1 << FRACTION_BITS,
     integer FULL_WEIGHT,

@@ -5,7 +5,7 @@
 //! ```text
 //! word 0  position  x 10 | y 10 | z 10 | 2 unused      cells from the tile's origin
 //! word 1  normal    x 10 | y 10 | z 10 | 2 unused      biased, see packing; zero length: cancelled
-//! word 2  albedo    r 8 | g 8 | b 8 | coverage 8       linear
+//! word 2  albedo    r 8 | g 8 | b 8 | coverage 8       see albedo
 //! word 3  surface   metallic 8 | roughness 8 | 16 unused
 //! ```
 //!

@@ -6,8 +6,9 @@ use glam::{DVec3, IVec3};
 use rayon::prelude::*;
 
 use super::{MotionError, Prepared, PreparedObject};
+use crate::data::albedo::unpack_color;
 use crate::data::grid::morton_key;
-use crate::data::packing::{unpack_normal, unpack_rgba8};
+use crate::data::packing::unpack_normal;
 use crate::digest::Digest;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{AlphaMode, Pose};
@@ -104,7 +105,7 @@ impl Prepared {
             for (cell, voxel) in cache.cells().zip(&cache.voxels) {
                 let Some(key) = self.key_inside(cell) else { continue };
                 let sum = sums.entry(key).or_default();
-                let albedo = unpack_rgba8(voxel.albedo);
+                let albedo = unpack_color(voxel.albedo);
                 sum.objects += 1.0;
                 (0..3).for_each(|channel| sum.albedo[channel] += albedo[channel]);
                 sum.coverage = sum.coverage.max(albedo[3]);

@@ -22,6 +22,7 @@ const CONSTANTS: &[&[Constant]] = &[
     MATHEMATICS,
     data::light::CONSTANTS,
     data::octree::CONSTANTS,
+    data::albedo::CONSTANTS,
     data::packing::CONSTANTS,
     data::pages::CONSTANTS,
     data::voxel_cache::CONSTANTS,

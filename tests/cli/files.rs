@@ -13,22 +13,22 @@ use octolume::scene::builtin;
 use crate::scenes::Scenes;
 use crate::{json, octolume, succeed};
 
-fn voxels(scene: &Path, file: &Path, options: &[&str]) -> Vec<u8> {
+pub fn voxels(scene: &Path, file: &Path, options: &[&str]) -> Vec<u8> {
     let start = [OsStr::new("voxels"), scene.as_os_str(), OsStr::new("-o"), file.as_os_str()];
     succeed(start.into_iter().chain(options.iter().map(OsStr::new)));
     fs::read(file).expect("a file")
 }
 
-struct Arrays {
+pub struct Arrays {
     cells: Array2<i32>,
     occupancy: Array1<f32>,
-    albedo: Array2<f32>,
+    pub albedo: Array2<f32>,
     normal: Array2<f32>,
     corner: Array1<f64>,
     span: Array0<f64>,
 }
 
-fn arrays(bytes: &[u8]) -> Arrays {
+pub fn arrays(bytes: &[u8]) -> Arrays {
     let mut npz = NpzReader::new(Cursor::new(bytes)).expect("an archive");
     let mut triples = |name| npz.by_name(name).expect("a float array");
     let (albedo, normal) = (triples("albedo"), triples("normal"));

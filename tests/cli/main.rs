@@ -25,6 +25,7 @@ mod real_scenes;
 mod reference;
 mod reports;
 mod scenes;
+mod shots;
 mod walls;
 mod wrong_usage;
 

@@ -1,4 +1,4 @@
-//! Scenes of walls, written to a folder: a white plane, and KayKit's Knight in a room whose floor is glossy,
+//! Scenes of walls, written to a folder: a white plane, two banners, and KayKit's Knight in a room whose floor is glossy,
 //! left wall red and right wall green, open towards the camera.
 
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 const HALF: f32 = 2.0;
 
 /// Corners of a wall counterclockwise from inside, its normal, and its material: colour and roughness.
-type Wall = ([[f32; 3]; 4], [f32; 3], ([f32; 3], f32));
+pub type Wall = ([[f32; 3]; 4], [f32; 3], ([f32; 3], f32));
 
 fn walls() -> [Wall; 5] {
     let (h, top) = (HALF, 2.0 * HALF);
@@ -26,14 +26,29 @@ fn walls() -> [Wall; 5] {
 /// Two units wide, around the origin, facing up; reflects all light, as rough as can be.
 pub fn white_plane(folder: &Path) -> PathBuf {
     let corners = [[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]];
+    write(&folder.join("plane.gltf"), &document(&[(corners, [0.0, 1.0, 0.0], ([1.0; 3], 1.0))]))
+}
+
+/// A square unit of `left` and one of `right`, side by side in the plane z = 0 above y = 0, meeting at x = 0; they face
+/// z and are as rough as can be.
+pub fn banners(left: [f32; 3], right: [f32; 3]) -> Value {
+    let banner = |x: f32| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 0.0], [x, 1.0, 0.0]];
+    let wall = |x: f32, color: [f32; 3]| (banner(x), [0.0, 0.0, 1.0], (color, 1.0));
+    document(&[wall(-1.0, left), wall(0.0, right)])
+}
+
+fn document(walls: &[Wall]) -> Value {
     let mut document = json!({
         "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [] }],
         "nodes": [], "meshes": [], "materials": [], "accessors": [], "bufferViews": [], "buffers": [],
     });
-    add_wall(&mut document, 0, &(corners, [0.0, 1.0, 0.0], ([1.0; 3], 1.0)));
-    let file = folder.join("plane.gltf");
-    std::fs::write(&file, document.to_string()).expect("writable");
-    file
+    walls.iter().enumerate().for_each(|(number, wall)| add_wall(&mut document, number, wall));
+    document
+}
+
+pub fn write(file: &Path, document: &Value) -> PathBuf {
+    std::fs::write(file, document.to_string()).expect("writable");
+    file.to_owned()
 }
 
 /// Writes the scene below `folder`; `None` where there is no Knight.
@@ -46,9 +61,7 @@ pub fn knight_in_a_room(folder: &Path) -> Option<PathBuf> {
     for (number, wall) in walls().iter().enumerate() {
         add_wall(&mut document, number, wall);
     }
-    let file = folder.join("knight-room.gltf");
-    std::fs::write(&file, document.to_string()).expect("writable");
-    Some(file)
+    Some(write(&folder.join("knight-room.gltf"), &document))
 }
 
 /// JSON and binary chunk of a .glb file.

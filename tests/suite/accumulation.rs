@@ -1,5 +1,6 @@
 //! What several voxels leave in one cell: exact integer sums, in any order, however many.
 
+use octolume::data::albedo::{code_of, units_of};
 use octolume::data::octree::{FULL_WEIGHT, MAX_FRAGMENTS};
 use octolume::settings::Filter;
 use octolume::stages::fill::gather_ref::{Fragment, Leaf, sums};
@@ -87,7 +88,7 @@ fn a_million_fragments_in_one_cell_are_summed_exactly() {
         assert!(sum.weight > 100_000 << 24, "far beyond 32 bits");
         assert_eq!(found[&cell], sum.resolve());
         // Extremes come out as they went in: nothing wrapped.
-        assert_eq!((found[&cell].albedo[0], found[&cell].normal[0], found[&cell].normal[2]), (255, 1022, 0));
+        assert_eq!((found[&cell].albedo[0], found[&cell].normal[0], found[&cell].normal[2]), (1020, 1022, 0));
     }
 }
 
@@ -99,8 +100,8 @@ fn a_million_full_voxels_in_one_cell_keep_their_mean() {
             .collect();
         let built = build(&voxels, &small(filter));
         let found = rules::leaves(&built).expect("leaves");
-        // 255/4 = 63.75 and 1022/4 = 255.5.
-        assert_eq!(found[&[4; 3]], Leaf { occupancy: FULL_WEIGHT, albedo: [64; 3], normal: [256; 3] });
+        // A quarter of white has half its root, 510 of 1020; 1022/4 = 255.5.
+        assert_eq!(found[&[4; 3]], Leaf { occupancy: FULL_WEIGHT, albedo: [510; 3], normal: [256; 3] });
         assert_eq!((found.len(), built.clipped), (1, 0));
     }
 }
@@ -112,7 +113,11 @@ fn the_limits_of_one_thread_are_exact_on_both_sides() {
         for filter in FILTERS {
             let white: Vec<_> = vec![at([4; 3], [255; 3], [1022; 3]); count];
             let built = build(&white, &small(filter));
-            assert_eq!(built.leaves, [[FULL_WEIGHT, 0xff_ffff, 1022 | 1022 << 10 | 1022 << 20]], "{count}");
+            assert_eq!(
+                built.leaves,
+                [[FULL_WEIGHT, 1020 * (1 | 1 << 10 | 1 << 20), 1022 * (1 | 1 << 10 | 1 << 20)]],
+                "{count}"
+            );
             assert_eq!(built.heavy_blocks.is_empty(), count <= bound);
         }
         assert_equals_reference(&random::scene(count as u64, count, 2), &Shape::new(2, 0, Filter::Split));
@@ -134,9 +139,10 @@ fn equal_inputs_give_that_value_however_many() {
             let voxels: Vec<_> = (0..count).map(|_| voxel(&mut rng)).collect();
             let built = build(&voxels, &Shape::new(1, 0, Filter::Split));
             let leaves = rules::leaves(&built).expect("leaves");
-            assert!(leaves.values().all(|leaf| leaf.albedo == [byte, 255 - byte, 13] && leaf.normal == normal));
+            let albedo = [byte, 255 - byte, 13].map(|code| code_of(units_of(code)));
+            assert!(leaves.values().all(|leaf| leaf.albedo == albedo && leaf.normal == normal));
             let root = rules::node(built.nodes[0]);
-            assert_eq!(root.albedo, [4 * byte, 4 * (255 - byte), 52].map(f64::from));
+            assert_eq!(root.albedo, albedo.map(f64::from));
             assert_eq!(root.normal, normal.map(f64::from));
         }
     }
@@ -155,7 +161,7 @@ fn a_corner_of_weight_zero_has_no_leaf_and_changes_none() {
         );
         let expected = (1 << off.count_ones()) + usize::from(off != 7);
         assert_eq!(found.len(), expected, "{steps:?}");
-        assert_eq!(found[&[4; 3]].albedo == [200; 3], off != 7);
+        assert_eq!(found[&[4; 3]].albedo == [800; 3], off != 7);
     }
     assert!(built_leaves(&[], &small(Filter::Split)).is_empty());
 }
@@ -168,7 +174,7 @@ fn opposed_normals_are_flagged_by_zero_length() {
         for filter in FILTERS {
             let built = build(&voxels, &small(filter));
             let leaf = rules::leaves(&built).expect("leaves")[&[2; 3]];
-            assert_eq!((leaf.normal, leaf.albedo, leaf.occupancy), ([511; 3], [8; 3], FULL_WEIGHT));
+            assert_eq!((leaf.normal, leaf.albedo, leaf.occupancy), ([511; 3], [32; 3], FULL_WEIGHT));
             assert_eq!(rules::node(built.nodes[0]).normal, [511.0; 3]);
         }
     }
@@ -181,9 +187,9 @@ fn sums_are_taken_before_occupancy_is_clamped_and_the_excess_is_known() {
     let voxels = [at([1; 3], [0; 3], [511; 3]), at([1; 3], [0; 3], [511; 3]), at([1; 3], [0; 3], [511; 3]), half];
     let built = build(&voxels, &small(Filter::Split));
     let found = rules::leaves(&built).expect("leaves");
-    // 0.5·255 / 3.5 = 36.43; weights after clamping would give 85.
-    assert_eq!(found[&[1; 3]], Leaf { occupancy: FULL_WEIGHT, albedo: [36; 3], normal: [511; 3] });
-    assert_eq!(found[&[2, 1, 1]], Leaf { occupancy: FULL_WEIGHT / 2, albedo: [255; 3], normal: [511; 3] });
+    // White is a seventh: 1020·√(1/7) = 385.5, of rounded units 385; weights after clamping would give a third.
+    assert_eq!(found[&[1; 3]], Leaf { occupancy: FULL_WEIGHT, albedo: [385; 3], normal: [511; 3] });
+    assert_eq!(found[&[2, 1, 1]], Leaf { occupancy: FULL_WEIGHT / 2, albedo: [1020; 3], normal: [511; 3] });
     // Excess = total − clipped − what the root holds.
     let root = rules::node(built.nodes[0]).occupancy as u64;
     let excess = (4 << 24) - built.clipped - root;
@@ -203,14 +209,14 @@ fn a_leaf_one_unit_short_of_full_is_not_full() {
 #[test]
 fn halves_round_up_and_just_below_a_half_rounds_down() {
     let mix = |dark: usize, light: usize| {
-        let mut voxels = vec![at([4; 3], [100; 3], [600; 3]); dark];
-        voxels.extend(vec![at([4; 3], [101; 3], [601; 3]); light]);
+        let mut voxels = vec![at([4; 3], [0; 3], [600; 3]); dark];
+        voxels.extend(vec![at([4; 3], [2; 3], [601; 3]); light]);
         built_leaves(&voxels, &small(Filter::Split))[&[4; 3]]
     };
     for (dark, light, up) in [(1, 1, 1), (512, 512, 1), (513, 511, 0), (511, 513, 1), (2000, 2000, 1), (2001, 1999, 0)]
     {
         let leaf = mix(dark, light);
-        assert_eq!((leaf.albedo, leaf.normal), ([100 + up; 3], [600 + up; 3]), "{dark} and {light}");
+        assert_eq!((leaf.albedo, leaf.normal), ([8 * up; 3], [600 + up; 3]), "{dark} and {light}");
     }
 }
 

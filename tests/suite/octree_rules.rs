@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use octolume::data::grid::{morton_cell, morton_key};
-use octolume::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, mask_words};
+use octolume::data::octree::{FULL_WEIGHT, mask_words};
 use octolume::stages::averaging::average_ref::{self, Node};
 use octolume::stages::build::{reduce_ref, scan_spread_ref};
 use octolume::stages::fill::count_ref::Block;
@@ -70,10 +70,10 @@ pub fn leaves(built: &Built) -> Result<BTreeMap<Cell, Leaf>, String> {
         };
         let leaf = Leaf {
             occupancy,
-            albedo: [0, 8, 16].map(|shift| albedo >> shift & 0xff),
+            albedo: [0, 10, 20].map(|shift| albedo >> shift & 0x3ff),
             normal: [0, 10, 20].map(|shift| normal >> shift & 0x3ff),
         };
-        same("unused bits of a leaf", &(albedo >> 24, normal >> 30), &(0, 0))?;
+        same("unused bits of a leaf", &(albedo >> 30, normal >> 30), &(0, 0))?;
         found.insert(cell, leaf);
     }
     Ok(found)
@@ -134,7 +134,7 @@ pub fn check_nodes(built: &Built) -> Check {
     let leaves = leaves(built)?;
     let leaf_node = |cell: &Cell| {
         let leaf = leaves.get(cell)?;
-        let albedo = leaf.albedo.map(|a| f64::from(ALBEDO_NODE_SCALE * a));
+        let albedo = leaf.albedo.map(f64::from);
         Some(Node { occupancy: leaf.occupancy.into(), albedo, normal: leaf.normal.map(f64::from) })
     };
     for ((level, cell), node_index) in &index {

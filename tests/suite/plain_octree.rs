@@ -4,8 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
+use octolume::data::albedo::ALBEDO_CODE_ONE;
 use octolume::data::grid::morton_key;
-use octolume::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, OctreeParams, OctreeSizes, mask_words};
+use octolume::data::octree::{FULL_WEIGHT, OctreeParams, OctreeSizes, mask_words};
 use octolume::data::packing::{NORMAL_MAX, unpack_normal};
 use octolume::gpu::Gpu;
 use octolume::stages::fill::ranked::RankedLeaves;
@@ -15,7 +16,8 @@ use octolume::stages::view::march::MarchedOctree;
 #[derive(Clone, Copy, Debug)]
 pub struct Leaf {
     pub occupancy: u32,
-    pub rgb8: [u8; 3],
+    /// A voxel's codes.
+    pub color: [u8; 3],
     pub normal: u32,
     pub object: u16,
 }
@@ -59,7 +61,7 @@ impl PlainOctree {
         for leaf in leaves.map(|(_, leaf)| leaf) {
             let weight = f64::from(leaf.occupancy);
             sum.occupancy += weight;
-            sum.albedo += weight * DVec3::from_array(leaf.rgb8.map(f64::from)) / 255.0;
+            sum.albedo += weight * DVec3::from_array(leaf.color.map(f64::from)).map(|code| (code / 255.0).powi(2));
             sum.normal += weight * unpack_normal(leaf.normal);
         }
         let full = f64::from(FULL_WEIGHT) * f64::from(1u32 << below);
@@ -101,8 +103,8 @@ impl PlainOctree {
 
     fn leaf_words(&self) -> Vec<u32> {
         let words = |leaf: &Leaf| {
-            let [r, g, b] = leaf.rgb8.map(u32::from);
-            [leaf.occupancy, r | g << 8 | b << 16, leaf.normal]
+            let [r, g, b] = leaf.color.map(|code| 4 * u32::from(code));
+            [leaf.occupancy, r | g << 10 | b << 20, leaf.normal]
         };
         self.leaves.values().flat_map(words).collect()
     }
@@ -138,7 +140,7 @@ impl PlainOctree {
         [
             occupancy as u32,
             (occupancy >> 32) as u32,
-            pack(mean.albedo * 255.0 * f64::from(ALBEDO_NODE_SCALE)),
+            pack(mean.albedo.map(f64::sqrt) * f64::from(ALBEDO_CODE_ONE)),
             pack(mean.normal * normal_max + normal_max),
         ]
     }

@@ -3,7 +3,7 @@
 
 use glam::{DAffine3, DVec3};
 use octolume::data::matrix::Matrix3x4;
-use octolume::data::packing::{pack_normal, pack_position, pack_rgba8, unpack_position};
+use octolume::data::packing::{pack_normal, pack_position, unpack_position};
 use octolume::data::pages::{Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
 use octolume::data::voxel_cache::{CacheVoxel, VoxelJoints};
 use octolume::gpu::{Gpu, GpuBuffer, Job, Recorder};
@@ -39,12 +39,12 @@ pub fn matrix(grid_from_cache: &DAffine3, anchor: f64) -> Matrix3x4 {
     Matrix3x4 { rows: [row(0), row(1), row(2)] }
 }
 
-pub fn cache_voxel(cell: [u32; 3], normal: DVec3, albedo: [u8; 3]) -> CacheVoxel {
-    let rgb = albedo.map(|byte| f64::from(byte) / 255.0);
+/// `color` in codes.
+pub fn cache_voxel(cell: [u32; 3], normal: DVec3, color: [u8; 3]) -> CacheVoxel {
     CacheVoxel {
         position: pack_position(cell),
         normal: pack_normal(normal),
-        albedo: pack_rgba8([rgb[0], rgb[1], rgb[2], 1.0]),
+        albedo: u32::from_le_bytes([color[0], color[1], color[2], 255]),
         surface: 0,
     }
 }

@@ -101,7 +101,7 @@ fn a_homogeneous_medium_stops_what_the_closed_form_says() {
 
 #[test]
 fn a_single_voxel_counts_once_under_the_papers_rule_and_by_length_under_the_other() {
-    let leaf = Leaf { occupancy: FULL_WEIGHT / 4, rgb8: [255; 3], normal: pack_normal(DVec3::Y), object: 0 };
+    let leaf = Leaf { occupancy: FULL_WEIGHT / 4, color: [255; 3], normal: pack_normal(DVec3::Y), object: 0 };
     let plain = PlainOctree::new(3, 1, [([5, 2, 6], leaf)]);
     let camera = camera(&grid(3), DVec3::new(0.2, 0.3, 1.0), 1.0);
     let rays = PixelRays::new(&camera, &grid(3), SIZE_PX);

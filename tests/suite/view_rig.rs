@@ -64,8 +64,8 @@ pub fn random_octree(depth: u32, dense_level: u32, share_percent: u32, seed: u64
         let normal = DVec3::new(signed(), signed(), signed());
         let normal = if numbers.below(10) == 0 { DVec3::ZERO } else { normal };
         let occupancy = if numbers.below(4) == 0 { FULL_WEIGHT } else { 1 + numbers.below(FULL_WEIGHT) };
-        let rgb8 = [0, 1, 2].map(|_| numbers.below(256) as u8);
-        leaves.push((cell, Leaf { occupancy, rgb8, normal: pack_normal(normal), object: numbers.below(300) as u16 }));
+        let color = [0, 1, 2].map(|_| numbers.below(256) as u8);
+        leaves.push((cell, Leaf { occupancy, color, normal: pack_normal(normal), object: numbers.below(300) as u16 }));
     }
     PlainOctree::new(depth, dense_level, leaves)
 }
@@ -73,7 +73,7 @@ pub fn random_octree(depth: u32, dense_level: u32, share_percent: u32, seed: u64
 pub fn uniform_octree(depth: u32, occupancy: f64) -> PlainOctree {
     let cells = 1_u32 << depth;
     let occupancy = (occupancy * f64::from(FULL_WEIGHT)).round() as u32;
-    let leaf = Leaf { occupancy, rgb8: [255; 3], normal: pack_normal(DVec3::X), object: 0 };
+    let leaf = Leaf { occupancy, color: [255; 3], normal: pack_normal(DVec3::X), object: 0 };
     let all = (0..cells.pow(3)).map(|i| ([i % cells, i / cells % cells, i / cells.pow(2)], leaf));
     PlainOctree::new(depth, depth.saturating_sub(2), all)
 }

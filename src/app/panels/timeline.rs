@@ -5,8 +5,8 @@ use egui::{ComboBox, DragValue, Slider, Ui};
 use super::icon::{self, Icon};
 use super::named_number;
 use crate::app::command::Command;
-use crate::app::playback::Playback;
 use crate::app::palette::{self, Tone};
+use crate::app::playback::Playback;
 use crate::scene::Clip;
 use crate::settings::MotionSettings;
 

@@ -3,7 +3,8 @@
 use glam::{Vec2, Vec3, Vec4};
 
 use super::{LEFT_HANDED, MeshVertex, VertexJoints};
-use crate::data::packing::{pack_normal, pack_rgba8};
+use crate::data::albedo::pack_color;
+use crate::data::packing::pack_normal;
 use crate::scene::Primitive;
 
 /// Zero stands in for what the primitive does not have, white for its colour.
@@ -12,7 +13,7 @@ pub(super) fn mesh_vertex(primitive: &Primitive, vertex: usize) -> MeshVertex {
     let color = primitive.colors.get(vertex).copied().unwrap_or(Vec4::ONE);
     MeshVertex {
         position: primitive.positions[vertex].to_array(),
-        color: pack_rgba8(color.to_array().map(f64::from)),
+        color: pack_color(color.to_array().map(f64::from)),
         normal: primitive.normals.get(vertex).copied().unwrap_or(Vec3::ZERO).to_array(),
         tangent: primitive.tangents.get(vertex).copied().map_or(0, pack_tangent),
         tex_coords: [first.x, first.y, second.x, second.y],

@@ -6,9 +6,10 @@ use bytemuck::Pod;
 use serde::Serialize;
 
 use super::Built;
+use crate::data::albedo::unpack_albedo;
 use crate::data::grid::{morton_cell, morton_key};
-use crate::data::octree::{ALBEDO_NODE_SCALE, FULL_WEIGHT, NO_BLOCK, OctreeParams, Slot, TopologyBuffers};
-use crate::data::packing::{unpack_normal, unpack_position, unpack_rgba8};
+use crate::data::octree::{FULL_WEIGHT, NO_BLOCK, OctreeParams, Slot, TopologyBuffers};
+use crate::data::packing::unpack_normal;
 use crate::gpu::{Gpu, GpuError};
 
 /// A node by where it lies: a cell of a level, which has 2^level cells an axis.
@@ -157,17 +158,16 @@ impl NodeReader<'_> {
             let slot = self.leaf_slot(address, index)?;
             let [occupancy, albedo, normal]: [u32; 3] =
                 self.read(&self.built.payload.buffers.leaves, "leaves", slot.into())?;
-            let [r, g, b, _] = unpack_rgba8(albedo);
             let occupancy = f64::from(occupancy) / f64::from(FULL_WEIGHT);
             let normal = unpack_normal(normal).to_array();
-            return Ok((octree.inner_node_count + slot, Payload { occupancy, albedo: [r, g, b], normal }));
+            return Ok((octree.inner_node_count + slot, Payload { occupancy, albedo: unpack_albedo(albedo), normal }));
         }
         let [low, high, albedo, normal]: [u32; 4] =
             self.read(&self.built.payload.buffers.nodes, "nodes", index.into())?;
         let sum = f64::from(high) * 2_f64.powi(32) + f64::from(low);
         let full = f64::from(FULL_WEIGHT) * 8_f64.powi((octree.depth - address.level) as i32);
-        let albedo = unpack_position(albedo).map(|units| f64::from(units) / (255.0 * f64::from(ALBEDO_NODE_SCALE)));
-        Ok((index, Payload { occupancy: sum / full, albedo, normal: unpack_normal(normal).to_array() }))
+        let (albedo, normal) = (unpack_albedo(albedo), unpack_normal(normal).to_array());
+        Ok((index, Payload { occupancy: sum / full, albedo, normal }))
     }
 
     /// Place of an occupied leaf among the occupied leaves.

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::super::{Engine, EngineError};
+use crate::data::albedo::unpack_albedo;
 use crate::data::grid::morton_cell;
 use crate::data::octree::{FULL_WEIGHT, Slot};
-use crate::data::packing::{unpack_normal, unpack_rgba8};
+use crate::data::packing::unpack_normal;
 use crate::data::world_voxels::WorldVoxels;
 use crate::gpu::GpuError;
 
@@ -28,8 +29,7 @@ impl Engine {
         for (key, leaf) in keys.zip(leaves.chunks_exact(3)) {
             voxels.cells.push(morton_cell(key).map(|c| c as i32));
             voxels.occupancy.push((f64::from(leaf[0]) / f64::from(FULL_WEIGHT)) as f32);
-            let [r, g, b, _] = unpack_rgba8(leaf[1]);
-            voxels.albedo.push([r as f32, g as f32, b as f32]);
+            voxels.albedo.push(unpack_albedo(leaf[1]).map(|channel| channel as f32));
             voxels.normal.push(direction(unpack_normal(leaf[2])));
         }
         Ok(voxels)

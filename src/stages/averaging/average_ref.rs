@@ -1,14 +1,14 @@
 //! Reference of `average.wgsl`: a node from its children (section 4.1), in f64 and exact integers.
 //!
-//! In: occupancy (2^3k a full leaf), albedo and biased normal of each child. Out: Σ occupancy, and
-//! the means weighted by it, unrounded; exactly zero where nothing is below.
+//! In: occupancy (2^3k a full leaf), albedo's code and biased normal of each child. Out: Σ occupancy, and
+//! the means weighted by it, unrounded, that of albedo as its code; exactly zero where nothing is below.
 
 /// An inner node, before quantisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Node {
     /// Σ over the leaves below.
     pub occupancy: u128,
-    /// 0 … 1020: units of 1/1020.
+    /// Codes: 0 … 1020.
     pub albedo: [f64; 3],
     /// 0 … 1022: biased by 511.
     pub normal: [f64; 3],
@@ -25,7 +25,8 @@ pub fn average(children: &[Node]) -> Node {
             sum / occupancy as f64
         })
     };
-    Node { occupancy, albedo: mean(&|child| child.albedo), normal: mean(&|child| child.normal) }
+    let albedo = mean(&|child| child.albedo.map(|code| code * code)).map(f64::sqrt);
+    Node { occupancy, albedo, normal: mean(&|child| child.normal) }
 }
 
 #[cfg(test)]
@@ -34,10 +35,10 @@ mod tests {
 
     #[test]
     fn three_to_one() {
-        let a = Node { occupancy: 3, albedo: [4.0, 0.0, 0.0], normal: [511.0, 511.0, 1022.0] };
-        let b = Node { occupancy: 1, albedo: [8.0, 1020.0, 0.0], normal: [511.0, 511.0, 0.0] };
+        let a = Node { occupancy: 3, albedo: [5.0, 0.0, 0.0], normal: [511.0, 511.0, 1022.0] };
+        let b = Node { occupancy: 1, albedo: [11.0, 1020.0, 0.0], normal: [511.0, 511.0, 0.0] };
         let mean = average(&[a, Node::default(), b]);
-        assert_eq!(mean, Node { occupancy: 4, albedo: [5.0, 255.0, 0.0], normal: [511.0, 511.0, 766.5] });
+        assert_eq!(mean, Node { occupancy: 4, albedo: [7.0, 510.0, 0.0], normal: [511.0, 511.0, 766.5] });
         assert_eq!(average(&[Node::default(); 8]), Node::default());
     }
 }

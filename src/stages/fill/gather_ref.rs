@@ -1,11 +1,13 @@
 //! Reference of `gather.wgsl`: what falls into each leaf, as exact 128-bit sums.
 //!
-//! In: world voxels (q, biased normal, 8-bit albedo and coverage) and a filter. A weight is the share of the voxel's
+//! In: world voxels (q, biased normal, albedo's code and coverage) and a filter. A weight is the share of the voxel's
 //! cube in the cell, times the share of the cube that is covered. Out, a leaf with any weight w:
-//! occupancy min(Σw, 2^3k), albedo Σw·a / Σw and normal Σw·n / Σw, both rounded half up, once.
+//! occupancy min(Σw, 2^3k), albedo Σw·a / Σw in units and normal Σw·n / Σw, both rounded half up, once;
+//! stored is the code of these units ([`crate::data::albedo`]).
 
 use std::collections::BTreeMap;
 
+use crate::data::albedo;
 use crate::data::octree::FULL_WEIGHT;
 use crate::settings::Filter;
 use crate::stages::build::mark_ref::{fragments, inside};
@@ -16,7 +18,7 @@ pub struct Fragment {
     pub q: [i64; 3],
     /// 0 … 2·NORMAL_MAX a component.
     pub normal: [u32; 3],
-    /// 0 … 255 a component.
+    /// Codes: 0 … 255 a component.
     pub albedo: [u32; 3],
     /// How much of the voxel its surface covers, of 255: less where it is masked or blends.
     pub coverage: u32,
@@ -32,6 +34,7 @@ pub fn covered(weight: u64, coverage: u32) -> u64 {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LeafSum {
     pub weight: u128,
+    /// In units.
     pub albedo: [u128; 3],
     pub normal: [u128; 3],
 }
@@ -40,6 +43,7 @@ pub struct LeafSum {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leaf {
     pub occupancy: u32,
+    /// Codes: 0 … 1020 a component.
     pub albedo: [u32; 3],
     pub normal: [u32; 3],
 }
@@ -60,7 +64,7 @@ impl LeafSum {
     pub fn add(&mut self, voxel: &Fragment, weight: u128) {
         self.weight += weight;
         for axis in 0..3 {
-            self.albedo[axis] += weight * u128::from(voxel.albedo[axis]);
+            self.albedo[axis] += weight * u128::from(albedo::units_of(voxel.albedo[axis]));
             self.normal[axis] += weight * u128::from(voxel.normal[axis]);
         }
     }
@@ -70,7 +74,7 @@ impl LeafSum {
         let mean = |sum: u128| ((2 * sum + self.weight) / (2 * self.weight)) as u32;
         Leaf {
             occupancy: self.weight.min(u128::from(FULL_WEIGHT)) as u32,
-            albedo: self.albedo.map(mean),
+            albedo: self.albedo.map(|sum| albedo::code_of(mean(sum))),
             normal: self.normal.map(mean),
         }
     }
@@ -84,12 +88,12 @@ mod tests {
     #[test]
     fn a_quarter_and_three_quarters_mix_as_such() {
         let dark = Fragment { q: [ONE / 4, 0, 0], normal: [511, 511, 1022], albedo: [0, 0, 200], coverage: 255 };
-        let light = Fragment { q: [3 * ONE / 4, 0, 0], normal: [511, 511, 0], albedo: [100, 2, 0], coverage: 255 };
+        let light = Fragment { q: [3 * ONE / 4, 0, 0], normal: [511, 511, 0], albedo: [100, 3, 0], coverage: 255 };
         let sums = sums([dark, light], 6, Filter::Split);
         let leaf = sums[&[0, 0, 0]].resolve();
         assert_eq!(leaf.occupancy, FULL_WEIGHT);
-        // Normal: (3·1022 + 0) / 4 = 766.5, which rounds up; albedo: 2/4 rounds up too.
-        assert_eq!((leaf.albedo, leaf.normal), ([25, 1, 150], [511, 511, 767]));
+        // Normal: (3·1022 + 0) / 4 = 766.5, which rounds up; albedo in units: 2500/4, 2/4, which rounds up too, 7500.
+        assert_eq!((leaf.albedo, leaf.normal), ([200, 8, 693], [511, 511, 767]));
     }
 
     #[test]

@@ -36,7 +36,7 @@ use payload::MAX_FRAGMENTS;
 
 /// Goes up with every change that gives any input another [`VoxelCache`]: caches kept on disk by
 /// other versions are not read.
-pub const ALGORITHM_VERSION: u32 = 2;
+pub const ALGORITHM_VERSION: u32 = 3;
 
 /// Voxels of one object. Advances `progress` by [`VoxelizeInput::work_units`].
 pub fn voxelize(input: &VoxelizeInput, progress: &Progress) -> Result<VoxelCache, VoxelizeError> {

@@ -15,6 +15,7 @@ use super::joints::JointSums;
 use super::surface::{Surface, SurfaceReader};
 use super::triangle::Triangle;
 use super::{VoxelizeInput, VoxelizePart};
+use crate::data::albedo::pack_color;
 use crate::data::packing::{pack_normal, pack_position, pack_rgba8};
 use crate::data::voxel_cache::{CacheVoxel, TILE_CELLS, Tile, VoxelCache, VoxelJoints};
 use crate::progress::{Cancelled, Progress};
@@ -222,7 +223,7 @@ impl Sums {
         CacheVoxel {
             position: pack_position(place),
             normal: pack_normal(self.mean_normal()),
-            albedo: pack_rgba8([r, g, b, coverage]),
+            albedo: pack_color([r, g, b, coverage]),
             surface: pack_rgba8([mean(self.metallic), mean(self.roughness), 0.0, 0.0]),
         }
     }

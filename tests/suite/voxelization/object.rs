@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use glam::{DVec3, IVec3, Vec2, Vec3};
+use octolume::data::albedo::unpack_color;
 use octolume::data::grid::morton_key;
-use octolume::data::packing::{unpack_position, unpack_rgba8};
+use octolume::data::packing::unpack_position;
 use octolume::data::voxel_cache::{CacheVoxel, TILE_CELLS, VoxelCache};
 use octolume::progress::Progress;
 use octolume::scene::{Material, Primitive, Texture, TextureRef, Wrap};
@@ -112,7 +113,7 @@ fn key(voxel: &CacheVoxel) -> u32 {
 }
 
 pub fn albedo(voxel: &CacheVoxel) -> [f64; 4] {
-    unpack_rgba8(voxel.albedo)
+    unpack_color(voxel.albedo)
 }
 
 /// A square of n × n cells in the layer z = 0, with a texture coordinate of one unit over it.
