@@ -21,12 +21,12 @@ fn wide_shl(a: vec2<u32>, bits: u32) -> vec2<u32> {
     return vec2<u32>(a.x << bits, (a.y << bits) | (a.x >> (32u - bits)));
 }
 
-// s / w rounded half up, for quotients below 1024; w > 0, both below 2^53.
+// s / w rounded half up, for quotients below 2^14; 0 < w < 2^49.
 fn wide_rounded_quotient(s: vec2<u32>, w: vec2<u32>) -> u32 {
     let divisor = wide_shl(w, 1u);
     var rest = wide_add(wide_shl(s, 1u), w);
     var quotient = 0u;
-    for (var bit = 10u; bit > 0u; bit -= 1u) {
+    for (var bit = 14u; bit > 0u; bit -= 1u) {
         let step = wide_shl(divisor, bit - 1u);
         if !wide_less(rest, step) {
             rest = wide_sub(rest, step);

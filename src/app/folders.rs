@@ -4,11 +4,14 @@ use std::path::{Path, PathBuf};
 
 use directories::{BaseDirs, UserDirs};
 
+/// Of the program, where the desktop asks for it.
+pub const NAME: &str = "Octolume";
+
 /// In the folder for pictures, or at home, or where the program was started.
 pub fn screenshots() -> PathBuf {
     let user = UserDirs::new();
     let pictures = user.as_ref().map(|user| user.picture_dir().unwrap_or(user.home_dir()));
-    pictures.unwrap_or(Path::new(".")).join(super::NAME)
+    pictures.unwrap_or(Path::new(".")).join(NAME)
 }
 
 /// A path as it was typed or pasted: `~` is home, and quotes around all of it are not part of it.

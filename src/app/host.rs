@@ -6,6 +6,9 @@ use std::pin::Pin;
 
 use super::folders;
 
+/// Where eframe keeps what egui remembers.
+pub const EGUI_KEY: &str = "egui";
+
 /// A file that a person chooses, or nothing.
 pub type Choice = Pin<Box<dyn Future<Output = Option<PathBuf>> + Send>>;
 
@@ -36,7 +39,7 @@ impl Host {
     /// The folders and the dialog of the person's desktop.
     pub fn desktop() -> Self {
         Self {
-            remembered_in: eframe::storage_dir(super::NAME).map(|folder| folder.join("window.ron")),
+            remembered_in: eframe::storage_dir(folders::NAME).map(|folder| folder.join("window.ron")),
             screenshots: folders::screenshots(),
             choose_file: || {
                 let dialog = rfd::AsyncFileDialog::new().set_title("Open a scene, or a picture of one");

@@ -91,11 +91,6 @@ use crate::scene::Clip;
 use crate::settings::{NodeNames, Settings};
 use crate::stages::SHADERS;
 
-/// Of the program, where the desktop asks for it.
-const NAME: &str = "Octolume";
-/// Where eframe keeps what egui remembers.
-const EGUI_MEMORY: &str = "egui";
-
 /// Why a window has no app.
 type NoApp = Box<dyn std::error::Error + Send + Sync>;
 
@@ -154,7 +149,7 @@ impl App {
     fn empty(context: &eframe::CreationContext<'_>, start: Start) -> Result<Self, NoApp> {
         let render = context.wgpu_render_state.clone().ok_or("the window has no GPU")?;
         let gpu = Arc::new(Gpu::from_wgpu(&SHADERS, &render.adapter, render.device.clone(), render.queue.clone()));
-        let is_chosen = context.storage.is_some_and(|storage| storage.get_string(EGUI_MEMORY).is_some());
+        let is_chosen = context.storage.is_some_and(|storage| storage.get_string(host::EGUI_KEY).is_some());
         theme::apply(&context.egui_ctx, is_chosen);
         context.egui_ctx.add_plugin(QuickClicks::default());
         let stage = Stage::new(Arc::clone(&gpu));

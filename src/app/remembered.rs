@@ -7,14 +7,13 @@ use eframe::Storage;
 use serde::{Deserialize, Serialize};
 
 use super::App;
-use super::host::Host;
+use super::host::{EGUI_KEY, Host};
 use super::journal::Severity;
 
 /// Goes up where something is renamed, moved or means something else; what is added has a default.
 const FORMAT: u32 = 1;
 /// Where the storage holds it; egui's memory is beside it.
 const KEY: &str = eframe::APP_KEY;
-const EGUI_KEY: &str = "egui";
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::anyhow;
 
 use super::rescue::{Kept, Rescue};
-use super::{App, NoApp, Start, device};
+use super::{App, NoApp, Start, device, folders};
 use crate::settings::NodeNames;
 
 /// A device that is lost sooner than this after the last one is not replaced.
@@ -55,7 +55,7 @@ fn open_window(
         app.rescue = rescue.clone();
         Ok(Box::new(app))
     });
-    eframe::run_native(super::NAME, options, create).map_err(|error| match error {
+    eframe::run_native(folders::NAME, options, create).map_err(|error| match error {
         eframe::Error::WinitEventLoop(_) => anyhow!("the display cannot be opened; the subcommands work without one"),
         error => anyhow!("no window can be opened: {error}"),
     })

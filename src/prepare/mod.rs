@@ -76,7 +76,8 @@ pub fn prepare_with(
     warnings.extend(shared);
     let (keys, first_users) = number_caches(&mut objects);
     if let Some(room) = stores.room {
-        room.check(&scene, (&grid, discretization), (&objects, &first_users))?;
+        let pose = scene.pose(clip, preparation.motion.time_secs);
+        room.check((&scene, &pose), (&grid, discretization), (&objects, &first_users))?;
     }
     let mode = discretization.mode;
     let reuse = stores.reuse.filter(|old| Arc::ptr_eq(&old.scene, &scene));

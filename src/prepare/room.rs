@@ -6,7 +6,8 @@ use bytesize::ByteSize;
 use super::{PrepareError, PreparedObject};
 use crate::data::grid::Grid;
 use crate::data::pages::{SEGMENT_SLOTS, WORLD_VOXEL_BYTES};
-use crate::scene::Scene;
+use crate::scene::bounds::Aabb;
+use crate::scene::{Object, Pose, Scene};
 use crate::settings::Discretization;
 
 /// What an adapter allows.
@@ -17,16 +18,19 @@ pub struct Room {
 }
 
 impl Room {
-    /// Refuses what will not fit, with what would. `first_users`: an object of each cache.
+    /// Refuses what will not fit, with what would. `first_users`: an object of each cache. At `pose`, of what lies
+    /// outside the grid only the cache is on the adapter.
     pub(super) fn check(
         &self,
-        scene: &Scene,
+        (scene, pose): (&Scene, &Pose),
         (grid, discretization): (&Grid, &Discretization),
         (objects, first_users): (&[PreparedObject], &[usize]),
     ) -> Result<(), PrepareError> {
         let of_cache: Vec<f64> = first_users.iter().map(|&user| least_voxels(scene, &objects[user])).collect();
-        let voxels: f64 = objects.iter().map(|object| of_cache[object.cache]).sum();
-        let least = objects.len() as f64 * f64::from(SEGMENT_SLOTS);
+        let inside: Vec<&PreparedObject> = inside(scene, pose, grid, objects);
+        let moved: f64 = inside.iter().map(|object| of_cache[object.cache]).sum();
+        let voxels = moved.max(of_cache.iter().sum());
+        let least = inside.len() as f64 * f64::from(SEGMENT_SLOTS);
         let bytes = voxels.max(least) * WORLD_VOXEL_BYTES as f64;
         let excess = bytes / self.buffer_bytes as f64;
         if excess <= 1.0 {
@@ -45,6 +49,15 @@ impl Room {
             would_fit,
         })
     }
+}
+
+/// Objects that lie in the grid as a whole.
+fn inside<'a>(scene: &Scene, pose: &Pose, grid: &Grid, objects: &'a [PreparedObject]) -> Vec<&'a PreparedObject> {
+    let all: Vec<Object> = objects.iter().map(|object| object.object.clone()).collect();
+    let (min, size) = (grid.corner(), grid.span * f64::from(grid.cells()));
+    let is_inside = |bounds: &Aabb| bounds.min.cmpge(min).all() && bounds.max.cmple(min + size).all();
+    let boxes = scene.boxes_at(&all, pose);
+    objects.iter().zip(boxes).filter(|(_, bounds)| bounds.as_ref().is_some_and(is_inside)).map(|(o, _)| o).collect()
 }
 
 /// Voxels are as many as cells that a surface crosses, which a span twice as large makes a quarter.

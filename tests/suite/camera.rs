@@ -76,8 +76,15 @@ fn depth_is_reversed() {
         let last = depth(flat.projection(1.0, farthest), farthest);
         assert!(last > 0.0 && last < 2e-3, "{farthest}: {last}");
     }
-    for farthest in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(flat.projection(1.0, farthest).as_mat4().is_finite(), "{farthest}");
+}
+
+#[test]
+fn a_far_plane_before_the_near_one_is_sound() {
+    let camera = looking(DVec3::Z * 3.0, DVec3::ZERO);
+    for camera in [camera, orthographic(camera, 4.0)] {
+        for farthest in [0.0, -1.0, 1e-300, f64::NAN, f64::INFINITY] {
+            assert!(camera.projection(1.0, farthest).as_mat4().is_finite(), "{farthest}");
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use octolume::data::albedo::unpack_albedo;
 use octolume::data::octree::FULL_WEIGHT;
 use octolume::gpu::Gpu;
 use octolume::settings::Filter;
@@ -71,7 +72,7 @@ pub fn check_store(gpu: &Gpu) -> Check {
         let vector = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
         let leaf = |_: Cell, slot: usize| {
             let [occupancy, albedo, _] = rig.built.leaves[slot];
-            let albedo = DVec3::from_array([0, 8, 16].map(|shift| f64::from(albedo >> shift & 255) / 255.0));
+            let albedo = unpack_albedo(albedo).into();
             let light = inject_ref::radiance(albedo, vector(direct[slot]), vector(emission[slot]));
             Lit::leaf(light.to_array(), f64::from(occupancy) / f64::from(FULL_WEIGHT))
         };

@@ -30,7 +30,7 @@ fn assert_normals(scene: &Scene, expected: DVec3, what: &str) {
 const BUMP: [u8; 4] = [218, 128, 218, 255];
 
 fn bumped(texel: [u8; 4], material: Material) -> Scene {
-    let material = Material { normal_texture: Some(TextureRef::new(0, 0)), ..material };
+    let material = Material { normal_texture: Some(TextureRef::new(0, 0)), double_sided: true, ..material };
     Scene { textures: vec![plain(texel)], ..one_square(material) }
 }
 

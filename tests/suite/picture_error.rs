@@ -93,9 +93,13 @@ fn pictures_of_any_size_are_compared_and_of_different_ones_refused() {
 }
 
 #[test]
-fn exposure_is_that_of_the_settings_or_what_the_mean_asks_for() {
+fn exposure_is_that_of_the_settings_or_what_the_picture_asks_for() {
     let picture = vec![[0.36, 0.36, 0.36, 1.0]; 4];
-    assert!((shown(&picture).exposure - 0.5).abs() < 1e-6);
+    let mean = Display::of_mean(&Look::default(), SurfaceView::Final, &picture);
+    assert!((mean.exposure - 0.5).abs() < 1e-6, "{mean:?}");
+    // As bright as 0.8, within a bin of luminances: a sixteenth.
+    let shown_as = shown(&picture).exposure * 0.36;
+    assert!((shown_as / 0.8 - 1.0).abs() <= 1.0 / 16.0, "{shown_as}");
     let look = Look { exposure_stops: Some(3.0), tone_curve: ToneCurve::Linear, ..Look::default() };
     let fixed = Display::new(&look, SurfaceView::Diffuse, &picture);
     assert_eq!(fixed, Display { exposure: 8.0, curve: ToneCurve::Linear });

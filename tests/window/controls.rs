@@ -100,7 +100,7 @@ fn the_grid_is_fit_to_the_pose_and_to_a_selected_node() {
     assert_eq!(window.app().settings().shot.fit.to, FitTo::Pose);
     window.open_tree();
     window.type_into("Find", "TRAVELLER");
-    window.select("traveller head");
+    window.select("traveller");
     let before = window.view();
     window.choose("Nodes that count", "the selected node");
     assert_eq!(window.app().settings().shot.fit.counted.only.len(), 1);

@@ -11,7 +11,8 @@ pub(super) fn load(root: &Root, warnings: &mut Vec<Warning>) -> (Vec<SceneCamera
     let (mut cameras, mut names) = (Vec::new(), UniqueNames::default());
     let places = root.cameras.iter().enumerate().map(|(index, camera)| match projection(camera) {
         Some(projection) => {
-            let name = names.of(camera.name.clone().unwrap_or_else(|| format!("camera {index}")));
+            let name = camera.name.clone().or_else(|| name_of_node(root, index));
+            let name = names.of(name.unwrap_or_else(|| format!("camera {index}")));
             cameras.push(SceneCamera { name, projection });
             Some(cameras.len() - 1)
         }
@@ -23,6 +24,12 @@ pub(super) fn load(root: &Root, warnings: &mut Vec<Warning>) -> (Vec<SceneCamera
     });
     let places = places.collect();
     (cameras, places)
+}
+
+/// Of the first that carries it.
+fn name_of_node(root: &Root, camera: usize) -> Option<String> {
+    let node = root.nodes.iter().find(|node| node.camera.is_some_and(|carried| carried.value() == camera))?;
+    node.name.clone()
 }
 
 fn projection(camera: &json::Camera) -> Option<Projection> {
