@@ -45,7 +45,7 @@ pub enum Command {
     Camera(OrbitCamera),
     /// A camera of the file, as it is posed now.
     SceneCamera(usize),
-    /// Back to the camera that frames everything.
+    /// Back to the camera that the scene opened with.
     FrameAll,
     /// Brings the selected node into view, all that the moment shows where none is selected.
     Frame,

@@ -26,7 +26,7 @@ const DRAGS: [DragGesture; 4] = [
 
 const OTHERS: [(&str, &str); 9] = [
     ("Wheel, pinch", "comes nearer or goes away"),
-    ("Double click", "frames everything again"),
+    ("Double click", "looks as at first"),
     ("Alt and click", "keeps the node of the octree under the pointer, while \"Node under cursor\" is unfolded"),
     ("Drag the divider", "moves the edge between cones and paths, where both are compared by a wipe"),
     ("Drop a file", "opens a scene, or a picture or settings that were saved"),

@@ -49,7 +49,8 @@ impl App {
         self.overlay_ui(ui, rect, size_px, full_px);
     }
 
-    /// The camera that is set, else the one of the file that is looked through, else one that frames everything.
+    /// The camera that is set, else the one of the file that is looked through, else one that frames what
+    /// is there when the clip begins.
     pub(super) fn camera(&self, full_px: [u32; 2]) -> OrbitCamera {
         let aspect = f64::from(full_px[0]) / f64::from(full_px[1]);
         let of_file = || {
@@ -59,7 +60,7 @@ impl App {
         };
         self.settings.shot.camera.or_else(of_file).unwrap_or_else(|| {
             let mut camera = OrbitCamera::default();
-            camera.frame(self.prepared().and_then(|prepared| prepared.bounds), aspect);
+            camera.frame(self.prepared().and_then(|prepared| prepared.at_first.or(prepared.bounds)), aspect);
             camera
         })
     }

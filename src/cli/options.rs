@@ -52,7 +52,7 @@ pub struct Common {
     /// Turns the whole scene about its centre after voxelization: degrees about x, y, z
     #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true)]
     turn: Option<[f64; 3]>,
-    /// Where the camera is; otherwise a camera of the file shows the scene, or one that frames everything
+    /// Where the camera is; otherwise a camera of the file shows the scene, or one that frames what is there as the clip begins
     #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true, requires = "target")]
     eye: Option<[f64; 3]>,
     /// What the camera looks at

@@ -44,7 +44,7 @@ pub struct Contents {
     pub lights: Digest,
     /// How their shadow maps are laid out.
     pub shadow_maps: Digest,
-    /// The camera, whether it was set or frames everything.
+    /// The camera, whether it was set or not.
     pub camera: Digest,
     /// The exact voxels of this pose; `None` while they are not made.
     pub exact: Option<Digest>,

@@ -12,18 +12,30 @@ const SMALLER: f64 = 4.0;
 /// More of them are a scene of small things.
 const MOST_APART: usize = 8;
 
-/// `None` where there is nothing to see; and what small things far away it leaves out, a warning each. `clip`: which
-/// one the preparation's motion plays.
-pub fn enclosed(
-    scene: &Scene,
-    preparation: &Preparation,
-    clip: Option<usize>,
-) -> Result<(Option<Aabb>, Vec<Warning>), PrepareError> {
+/// Boxes are `None` where there is nothing to see.
+pub struct Enclosed {
+    pub bounds: Option<Aabb>,
+    /// What of it is there when the clip begins.
+    pub at_first: Option<Aabb>,
+    /// What small things far away are left out, one each.
+    pub warnings: Vec<Warning>,
+}
+
+/// `clip`: which one the preparation's motion plays.
+pub fn enclosed(scene: &Scene, preparation: &Preparation, clip: Option<usize>) -> Result<Enclosed, PrepareError> {
     let time_secs = preparation.motion.time_secs;
     let objects: Vec<Object> = scene.mesh_nodes().collect();
+    let at_first = scene.boxes_at(&objects, &scene.pose(clip, 0.0));
+    let all_at_first = || at_first.iter().copied().fold(None, union);
     let boxes = match preparation.fit.to {
-        FitTo::Box { min, max } => return Ok((Some(Aabb { min, max }), Vec::new())),
-        FitTo::Scene => return Ok((scene.bounds_over_time(), Vec::new())),
+        FitTo::Box { min, max } => {
+            let bounds = Some(Aabb { min, max });
+            return Ok(Enclosed { bounds, at_first: bounds, warnings: Vec::new() });
+        }
+        FitTo::Scene => {
+            let bounds = scene.bounds_over_time();
+            return Ok(Enclosed { bounds, at_first: all_at_first(), warnings: Vec::new() });
+        }
         FitTo::Clip => scene.boxes_over_clip(&objects, clip),
         FitTo::Pose => scene.boxes_at(&objects, &scene.pose(clip, time_secs)),
     };
@@ -41,7 +53,8 @@ pub fn enclosed(
         );
         Warning::new(sentence).at(object.node)
     });
-    Ok((around(&boxes), warnings.collect()))
+    let counted_at_first = boxes.iter().map(|(object, _)| at_first[*object]).fold(None, union);
+    Ok(Enclosed { bounds: around(&boxes), at_first: counted_at_first, warnings: warnings.collect() })
 }
 
 /// Takes out what is small and far from the rest; returns how many times the size of the rest it makes of the whole.

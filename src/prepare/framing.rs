@@ -34,13 +34,13 @@ impl Prepared {
         })
     }
 
-    /// The camera that is set, else the file's, else one that frames everything in a picture of this size.
+    /// The camera that is set, else the file's, else one that frames what is there when the clip begins.
     pub fn camera(&self, settings: &Settings, pose: &Pose, size_px: [u32; 2]) -> OrbitCamera {
         let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
         let of_file = || self.scene.camera_at(self.camera_index(&settings.shot).ok()??, pose, aspect);
         settings.shot.camera.or_else(of_file).unwrap_or_else(|| {
             let mut camera = OrbitCamera::default();
-            camera.frame(self.bounds, aspect);
+            camera.frame(self.at_first.or(self.bounds), aspect);
             camera
         })
     }

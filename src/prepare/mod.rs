@@ -32,6 +32,7 @@ use crate::stages::voxelize::TexturePyramids;
 
 pub use caches::Stores;
 use caches::{CacheSearch, CacheToFind};
+use enclose::Enclosed;
 pub use error::PrepareError;
 pub use exact::{ExactError, ExactSurface, ExactVoxel, ExactVoxels};
 pub use fold::{FrameMatrices, MotionError};
@@ -66,7 +67,7 @@ pub fn prepare_with(
     let preparation = preparation.into();
     let discretization = &preparation.discretization;
     let clip = clips::clip_index(&scene, &preparation.motion)?;
-    let (bounds, left_out) = enclose::enclosed(&scene, &preparation, clip)?;
+    let Enclosed { bounds, at_first, warnings: left_out } = enclose::enclosed(&scene, &preparation, clip)?;
     let grid = grid_around(&scene.name, bounds, discretization)?;
     let motion = scene.motion_report(grid.span, clip);
     let mut warnings = scene.warnings.clone();
@@ -112,6 +113,7 @@ pub fn prepare_with(
         parts,
         brightest_emission,
         bounds,
+        at_first,
         warnings,
         voxelize_ms,
         keys,

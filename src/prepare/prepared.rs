@@ -32,6 +32,8 @@ pub struct Prepared {
     pub preparation: Preparation,
     /// What the grid encloses or is centred on; `None` where there is nothing to see.
     pub bounds: Option<Aabb>,
+    /// What of it is there when the clip begins.
+    pub at_first: Option<Aabb>,
     /// The scene's posed bounds at rest and over all its clips, wherever the grid is.
     pub reach: Option<Aabb>,
     pub warnings: Vec<Warning>,

@@ -7,8 +7,6 @@
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use serde::{Deserialize, Serialize};
 
-use super::Aabb;
-
 /// Right-handed, looks from `eye` to `target`. Never degenerate: see [`OrbitCamera::world_up`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -120,19 +118,6 @@ impl OrbitCamera {
         }
     }
 
-    /// Looks at a box from the side it looks from now, near enough to fill the view. Nothing counts
-    /// as a unit sphere at the origin, a point as a sphere of one unit.
-    pub fn frame(&mut self, bounds: Option<Aabb>, aspect: f64) {
-        let bounds = bounds.filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite());
-        let (center, radius) = bounds.map_or((DVec3::ZERO, 0.0), |b| (b.center(), b.size().length() / 2.0));
-        let radius = if radius > 0.0 && radius.is_finite() { radius } else { 1.0 };
-        let narrow = usable_aspect(aspect).min(1.0);
-        self.move_to(center, radius / (self.half_fov_tangent() * narrow).atan().sin());
-        if let Some(height) = &mut self.orthographic_height {
-            *height = 2.0 * radius / narrow;
-        }
-    }
-
     /// Shows as much to the sides as a picture of aspect `shown`, in one of aspect `aspect`: more above and below where
     /// that is narrower.
     pub fn widen(&mut self, shown: f64, aspect: f64) {
@@ -182,7 +167,7 @@ impl OrbitCamera {
     }
 
     /// Keeps the direction.
-    fn move_to(&mut self, target: DVec3, distance: f64) {
+    pub(super) fn move_to(&mut self, target: DVec3, distance: f64) {
         let direction = (self.eye - self.target).normalize_or(DVec3::Z);
         let nearest = DISTANCES.0.max(NEAREST_SHARE * target.length());
         self.target = target;
@@ -204,6 +189,6 @@ impl OrbitCamera {
 }
 
 /// Width over height; a viewport without either counts as square, none as thinner than 1 : 10 000.
-fn usable_aspect(aspect: f64) -> f64 {
+pub(super) fn usable_aspect(aspect: f64) -> f64 {
     if aspect.is_finite() && aspect > 0.0 { aspect.clamp(1e-4, 1e4) } else { 1.0 }
 }

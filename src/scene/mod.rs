@@ -8,6 +8,7 @@ pub mod bounds;
 pub mod builtin;
 pub mod camera;
 mod file_camera;
+mod framing;
 pub mod geometry;
 mod identity;
 pub mod load;

@@ -75,8 +75,6 @@ fn a_camera_keeps_its_roll() {
     let (picture, _) = render(&scene, &["--view", "albedo", "--camera", "Rolled", "--size", "40x40"]);
     // It is turned to the left, so what it sees is turned to the right: left is up.
     assert!(is_red(picture.get_pixel(20, 15)) && is_green(picture.get_pixel(20, 25)));
-    let (picture, _) = render(&scene, &["--view", "albedo", "--camera", "Rolled", "--roll", "0", "--size", "40x40"]);
-    assert!(is_red(picture.get_pixel(15, 20)) && is_green(picture.get_pixel(25, 20)), "an option has the last word");
 }
 
 #[test]
@@ -98,7 +96,7 @@ fn only_the_front_of_a_single_sided_surface_is_seen() {
     document["materials"][1]["doubleSided"] = json!(true);
     let scene = write(&file, &document);
     for view in ["albedo", "mesh", "final"] {
-        let view = ["--view", view, "--sun", "100000", "--light-dir", "0,0,1", "--exposure", "-14", "--size", "40x30"];
+        let view = ["--view", view, "--sun", "off", "--sky", "1,1,1", "--size", "40x30"];
         let from = |z: &'static str| {
             let options = [&view[..], &["--eye", z, "--target", "0,0.5,0"]].concat();
             let (picture, _) = render(&scene, &options);

@@ -220,3 +220,29 @@ fn a_grid_beside_everything_says_so() {
     engine.request(&settings, [16, 16]).expect("a request");
     assert_eq!(engine.left_out(), [""; 0], "nothing is shown");
 }
+
+#[test]
+fn a_first_picture_shows_what_is_there_when_the_clip_begins_large() {
+    let mut scene = cube_scene(Trs::default());
+    let walk = Channel {
+        node: 0,
+        property: Property::Translation,
+        interpolation: Interpolation::Linear,
+        times_secs: vec![0.0, 1.0],
+        values: vec![0.0, 0.0, 0.0, 100.0, 0.0, 0.0],
+    };
+    scene.clips.push(Clip { name: "walk".to_owned(), duration_secs: 1.0, channels: vec![walk] });
+    let camera = |fit: FitTo, time_secs: f64| {
+        let mut settings = settings(64, Some("walk"), time_secs);
+        settings.shot.fit = Fit { to: fit, ..Fit::default() };
+        let prepared = prepared(&scene, &settings);
+        let pose = prepared.pose(&settings.shot.motion).expect("poses");
+        prepared.camera(&settings, &pose, [64, 64])
+    };
+    let first = camera(FitTo::Clip, 0.0);
+    let cube = scene.bounds_at(&scene.pose(None, 0.0)).expect("a cube");
+    assert!(first.distance() < 5.0 * cube.size().max_element() && first.target == cube.center(), "{first:?}");
+    for (fit, time_secs) in [(FitTo::Clip, 0.5), (FitTo::Scene, 0.0), (FitTo::Pose, 0.7)] {
+        assert_eq!(camera(fit, time_secs), first, "it stands still, whatever the grid encloses");
+    }
+}

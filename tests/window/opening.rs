@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use egui::vec2;
 use egui_kittest::kittest::Queryable as _;
 use octolume::export::read_settings;
+use octolume::settings::{FitTo, NodeNames};
 use serde_json::{Value, json};
 
 use crate::files::{Dropped, write};
 use crate::real_scenes::real_scenes;
-use crate::rig::{Window, assert_changed, difference};
+use crate::rig::{Window, assert_changed, difference, small_grid, wgpu_setup};
 
 impl Window {
     fn drop_file(&mut self, file: PathBuf) {
@@ -53,10 +54,13 @@ fn a_broken_file_is_told_in_a_note_and_the_log_and_the_scene_before_stays() {
 
 #[test]
 fn cancelling_a_voxelization_keeps_the_voxels_that_are_there() {
-    let mut window = Window::open("courtyard");
+    // Cells large enough that the finest grid has room on any adapter.
+    let mut settings = small_grid();
+    settings.shot.fit.to = FitTo::Scene;
+    let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
     let before = window.view();
     window.click("Grid");
-    window.0.get_by_label("512³ cells").click();
+    window.0.get_by_label("1024³ cells").click();
     window.0.step();
     window.cancel_at_once();
     assert_eq!(window.app().settings().method.discretization.grid, 64);
