@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Drives the real window by mouse and keyboard on a display of its own: filter, timeline, level,
-# view, scene tree, lights, slice, pointers of a node, screenshot, cones, and the path tracer beside them.
+# view, scene tree, lights, slice, pointers of a node, screenshot, cones, the path tracer beside them, lens, help, and
+# a saved picture that is opened again.
 # Photographs every step into FOLDER. Fails if the window does not open, a photo is uniform, or a control that
 # must change the picture does not.
 #
@@ -30,8 +31,10 @@ readonly HEIGHT_MIDDLE="155 636" HEIGHT_LOW="110 636"
 # With Timings folded, and the node's section unfolded; its rows are those of a lit node.
 readonly TIMINGS="1107 46" NODE="1107 81" DRAW_POINTERS="1106 105" FIRST_CHILD="1200 283" ABOVE="1200 371"
 # With Light and the node folded too. The divider of the wipe is in the middle at first.
-readonly SURFACES="250 231" CONE_TRACING="15 420" HALF_RESOLUTION="15 709"
+readonly SURFACES="250 231" CONE_TRACING="15 444" HALF_RESOLUTION="15 733" ORTHO="194 351"
 readonly REFERENCE="1107 115" SAMPLES="1197 140" START="1238 140" WIPE="1299 252"
+# With Scene unfolded.
+readonly PATH_FIELD="130 96"
 readonly DIVIDER="692 460" DIVIDER_LEFT="480 460"
 # The picture alone, without the texts over it.
 readonly VIEW=770x740+300+80
@@ -104,6 +107,9 @@ drag() {
 
 # Into the number at a place.
 enter() { click "$1"; xdotool type --delay 100 "$2"; xdotool key Return; }
+
+# Instead of the text in the field at a place.
+replace() { click "$1"; xdotool key ctrl+a; xdotool type --delay 50 "$2"; xdotool key Return; }
 
 alt_click() { xdotool mousemove $1 sleep 0.5 keydown alt sleep 0.5 click 1 sleep 0.5 keyup alt sleep 0.5 mousemove 1200 860; }
 
@@ -186,4 +192,10 @@ click "$HALF_RESOLUTION"; photograph_at_rest 37-half; must_equal 35-surfaces 37-
 click "$REFERENCE"; enter "$SAMPLES" 1; click "$START"; photograph_at_rest 38-traced; must_equal 37-half 38-traced
 click "$WIPE"; photograph_at_rest 39-wipe; must_change 38-traced 39-wipe
 drag "$DIVIDER" "$DIVIDER_LEFT"; photograph_at_rest 40-wiped; must_change 39-wipe 40-wiped
+
+click "$WIPE"; click "$ORTHO"; photograph_at_rest 41-parallel; must_change 40-wiped 41-parallel
+xdotool key F1; photograph_at_rest 42-help; must_change 41-parallel 42-help
+xdotool key F1; photograph_at_rest 43-no-help; must_equal 41-parallel 43-no-help
+# A picture that was saved brings back what it shows.
+click "$SCENE"; replace "$PATH_FIELD" "${shots[0]}"; photograph_at_rest 44-reopened; must_change 43-no-help 44-reopened
 echo "drive.sh: all steps done, photos in $folder"
