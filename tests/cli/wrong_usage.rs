@@ -86,6 +86,15 @@ fn wrong_options_are_wrong_usage() {
 }
 
 #[test]
+fn characters_are_counted_where_there_are_some() {
+    for arguments in [["courtyard", "2"], ["dynamic", "0"], ["dynamic", "257"]] {
+        let [scene, count] = arguments;
+        let said = fail(2, ["make", scene, "-o", "unwritten.glb", "--characters", count]);
+        assert!(said.contains("--characters"), "{said}");
+    }
+}
+
+#[test]
 fn an_unknown_adapter_is_named_beside_those_there_are() {
     let errors = fail(1, ["info", "courtyard", "--adapter", "Voodoo 2"]);
     assert!(errors.contains("Voodoo 2"), "{errors}");

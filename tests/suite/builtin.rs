@@ -1,12 +1,12 @@
 //! The generated scenes: valid glTF, the same bytes each time, and what they promise to hold.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use glam::{Quat, Vec3};
 use gltf::animation::util::ReadOutputs;
 use gltf::animation::{Interpolation, Property};
 use octolume::progress::Progress;
-use octolume::scene::{builtin, load};
+use octolume::scene::{Motion, Pose, Scene, builtin, load};
 
 /// How far a written unit vector may be from length 1: three components each rounded to half a
 /// step of 1/8192.
@@ -29,15 +29,15 @@ fn triangles(mesh: &gltf::Mesh) -> usize {
 #[test]
 fn names_are_known_and_others_are_not() {
     for name in builtin::NAMES {
-        assert!(builtin::make(name).is_some() && builtin::bytes(name).is_some(), "{name}");
+        assert!(builtin::make(name, 1).is_some() && builtin::bytes(name).is_some(), "{name}");
     }
-    assert!(builtin::make("nowhere").is_none() && builtin::bytes("nowhere").is_none());
+    assert!(builtin::make("nowhere", 1).is_none() && builtin::bytes("nowhere").is_none());
 }
 
 #[test]
 fn committed_files_are_what_the_generator_makes() {
     for name in builtin::NAMES {
-        let (made, committed) = (builtin::make(name).unwrap().unwrap(), builtin::bytes(name).unwrap());
+        let (made, committed) = (builtin::make(name, 1).unwrap().unwrap(), builtin::bytes(name).unwrap());
         let difference = made.iter().zip(committed).position(|(a, b)| a != b);
         assert!(
             made == committed,
@@ -51,9 +51,67 @@ fn committed_files_are_what_the_generator_makes() {
 
 #[test]
 fn our_own_loader_has_nothing_to_say_against_them() {
-    for name in builtin::NAMES {
-        let scene = load::open_bytes(name, builtin::bytes(name).unwrap(), None, &Progress::default()).unwrap();
-        assert_eq!(scene.warnings, [""; 0], "{name}");
+    for name in builtin::MADE {
+        assert_eq!(made(name, 3).warnings, [""; 0], "{name}");
+    }
+}
+
+fn made(name: &str, characters: usize) -> Scene {
+    let bytes = builtin::make(name, characters).expect("a known name").expect("is made");
+    load::open_bytes(name, &bytes, None, &Progress::default()).expect("opens")
+}
+
+fn drawn_triangles(scene: &Scene) -> usize {
+    scene.objects().iter().map(|object| scene.meshes[object.mesh].triangle_count()).sum()
+}
+
+#[test]
+fn the_character_is_54_skinned_parts_on_22_joints() {
+    let scene = made("character", 1);
+    let skinned = scene.objects().iter().filter(|object| matches!(object.motion, Motion::Skinned { .. })).count();
+    assert_eq!((skinned, scene.skins.len(), scene.skins[0].joints.len()), (54, 1, 22));
+    let triangles = drawn_triangles(&scene);
+    assert!((25_200..=26_200).contains(&triangles), "{triangles}");
+    let clips: Vec<&str> = scene.own_clips().iter().map(|clip| &*clip.name).collect();
+    assert_eq!(clips, ["walk", "turn"]);
+}
+
+#[test]
+fn the_atrium_is_patrolled_and_nine_things_move_in_it() {
+    let scene = made("atrium", 1);
+    let objects = scene.objects();
+    let moving = |is: fn(&Motion) -> bool| objects.iter().filter(|object| is(&object.motion)).count();
+    assert_eq!(moving(|motion| matches!(motion, Motion::Rigid)), 9);
+    assert_eq!(moving(|motion| matches!(motion, Motion::Skinned { .. })), 54);
+    assert!((370..=410).contains(&objects.len()), "{}", objects.len());
+    let triangles = drawn_triangles(&scene);
+    assert!((255_000..=269_000).contains(&triangles), "{triangles}");
+}
+
+/// Rotations of a guard's joints below the root, which lies where its lap begins.
+fn gait(pose: &Pose, scene: &Scene, skin: usize) -> blake3::Hash {
+    let mut hasher = blake3::Hasher::new();
+    for joint in &scene.skins[skin].joints[1..] {
+        let parent = scene.nodes[*joint].parent.expect("below the root");
+        let local = pose.world_from_node[parent].inverse() * pose.world_from_node[*joint];
+        local.to_cols_array().iter().for_each(|value| {
+            hasher.update(&((value * 1e6).round() as i64).to_le_bytes());
+        });
+    }
+    hasher.finalize()
+}
+
+#[test]
+fn no_two_of_256_characters_walk_alike_and_all_share_their_meshes() {
+    let scene = made("dynamic", builtin::MOST_CHARACTERS);
+    assert_eq!((scene.skins.len(), scene.meshes.len()), (256, 54 + 2));
+    assert_eq!(scene.objects().len(), 256 * (54 + 1));
+    let triangles = drawn_triangles(&scene);
+    assert!((6_400_000..=6_800_000).contains(&triangles), "{triangles}");
+    for time_secs in [0.0, 0.5, 1.7, 3.9] {
+        let pose = scene.pose(Some(0), time_secs);
+        let gaits: HashSet<blake3::Hash> = (0..256).map(|skin| gait(&pose, &scene, skin)).collect();
+        assert_eq!(gaits.len(), 256, "at {time_secs} s");
     }
 }
 

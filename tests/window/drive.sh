@@ -69,13 +69,12 @@ is_working() {
 # Photographs until the whole window stays the same for a while: nothing is built or drawn any more.
 photograph_at_rest() {
     local until=$((SECONDS + PATIENCE_SECS)) still=0 last="" now
-    while ((still < 3)); do
+    until ((still >= 3)) && photograph "$1" && ! is_working "$1"; do
         ((SECONDS < until)) || fail "the window does not come to rest before $1"
         kill -0 "$window" 2>/dev/null || fail "the window closed before $1"
-        sleep 0.5
-        photograph "$1"
-        now=$(convert "$folder/$1.png" rgb:- | sha256sum)
-        if [[ $now == "$last" ]] && ! is_working "$1"; then still=$((still + 1)); else still=0; fi
+        sleep 0.4
+        now=$(import -window root rgb:- | sha256sum)
+        if [[ $now == "$last" ]]; then still=$((still + 1)); else still=0; fi
         last=$now
     done
     crop "$1"
@@ -99,7 +98,7 @@ must_equal() {
 
 # Slow enough that press, move and release come in frames of their own, also on a busy machine.
 # Pointer away from every control afterwards, so that no tooltip lies over the picture.
-click() { xdotool mousemove $1 sleep 0.5 click 1 sleep 0.5 mousemove 1200 860; }
+click() { xdotool mousemove $1 sleep 0.3 click 1 sleep 0.3 mousemove 1200 860; }
 
 drag() {
     xdotool mousemove $1 sleep 0.5 mousedown 1 sleep 0.5 mousemove $2 sleep 0.5 mouseup 1 sleep 0.5 mousemove 1200 860

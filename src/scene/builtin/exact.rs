@@ -5,7 +5,7 @@
 //! rounded to a fixed step ([`rounded`]). Of glam's f64 types only operations without
 //! trigonometry are used.
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use crate::scene::Trs;
 
@@ -59,6 +59,14 @@ pub fn smoothstep(from: f64, to: f64, value: f64) -> f64 {
 /// A place without turn or scale.
 pub fn at(x: f64, y: f64, z: f64) -> Trs {
     Trs { translation: DVec3::new(x, y, z), ..Trs::default() }
+}
+
+/// A place at `eye` whose −Z looks at `target`, as lights and cameras do.
+pub fn facing(eye: DVec3, target: DVec3) -> Trs {
+    let back = (eye - target).normalize();
+    let right = DVec3::Y.cross(back).normalize();
+    let rotation = DQuat::from_mat3(&DMat3::from_cols(right, back.cross(right), back)).normalize();
+    Trs { rotation, ..at(eye.x, eye.y, eye.z) }
 }
 
 /// A place turned about an axis.

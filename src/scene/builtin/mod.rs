@@ -4,23 +4,34 @@
 //! share; a scene is one module that arranges it. Lengths are metres, +Y is up, colours linear.
 //! The same name gives the same bytes on every machine: see [`exact`] for how.
 
+mod atrium;
 pub mod character;
 mod courtyard;
+mod crowd;
 mod error;
 pub mod exact;
 pub mod glb;
 pub mod shapes;
 pub mod textures;
 
+pub use crowd::MOST as MOST_CHARACTERS;
 pub use error::MakeError;
 
-/// Names that [`make`] and [`bytes`] know.
+/// Names that [`bytes`] knows: scenes that open by their name.
 pub const NAMES: &[&str] = &["courtyard"];
+/// Names that [`make`] knows.
+pub const MADE: &[&str] = &["courtyard", "character", "atrium", DYNAMIC];
+/// The scene whose [`make`] counts characters.
+pub const DYNAMIC: &str = "dynamic";
 
-/// Generates a scene as the bytes of a `.glb` file; `None` for an unknown name.
-pub fn make(name: &str) -> Option<Result<Vec<u8>, MakeError>> {
+/// Generates a scene as the bytes of a `.glb` file; `None` for an unknown name. `characters`: how many walk in
+/// [`DYNAMIC`], 1 to [`MOST_CHARACTERS`]; other scenes have as many as they have.
+pub fn make(name: &str, characters: usize) -> Option<Result<Vec<u8>, MakeError>> {
     match name {
         "courtyard" => Some(courtyard::make()),
+        "character" => Some(crowd::character()),
+        "atrium" => Some(atrium::make()),
+        DYNAMIC => Some(crowd::dynamic(characters.clamp(1, MOST_CHARACTERS))),
         _ => None,
     }
 }

@@ -22,6 +22,7 @@ pub struct Circle {
     pub start_radians: f64,
 }
 
+const KEYS_A_STRIDE: u32 = 16;
 /// Share of a stride that a foot stays on the ground.
 const STANCE: f64 = 0.6;
 /// Foot pitch over a stride (share, radians; toes down is positive), from heel strike on.
@@ -43,6 +44,12 @@ impl Circle {
     /// Turns +Z into the walking direction.
     fn heading(&self, laps: f64) -> DQuat {
         turn(DVec3::Y, self.angle(laps) + PI)
+    }
+
+    /// Times of keys that catch every stride, evenly spaced over the lap, both ends included.
+    pub fn key_times(&self) -> Vec<f64> {
+        let keys = self.strides as u32 * KEYS_A_STRIDE;
+        (0..=keys).map(|key| self.lap_secs * f64::from(key) / f64::from(keys)).collect()
     }
 
     /// The pose at a time of the lap.

@@ -31,6 +31,16 @@ pub struct Piece {
 }
 
 impl Piece {
+    /// Whether any of it does.
+    pub fn follows(&self, joint: usize) -> bool {
+        self.shape.positions.iter().any(|&point| (self.rule)(point)[joint] > 0.0)
+    }
+
+    /// With four triangles for each.
+    pub fn finer(self) -> Self {
+        Self { shape: self.shape.split_in_four(), ..self }
+    }
+
     /// The part as a file stores it: shaded, with the influences of every vertex.
     pub fn bound(self) -> GlbPart {
         let surface = self.shape.shaded(50.0);

@@ -13,12 +13,11 @@ mod traveller;
 mod walk;
 mod walls;
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::DVec3;
 
 use super::MakeError;
-use super::exact::at;
+use super::exact::facing;
 use super::glb::GlbWriter;
-use crate::scene::Trs;
 use palette::Palette;
 
 pub fn make() -> Result<Vec<u8>, MakeError> {
@@ -37,12 +36,4 @@ pub fn make() -> Result<Vec<u8>, MakeError> {
     glb.sun("sun", sun, [1.0, 0.94, 0.84], 8.0);
     glb.camera("view", facing(DVec3::new(1.5, 2.55, 6.8), DVec3::new(0.2, 1.85, -1.0)), 0.92);
     glb.finish("courtyard")
-}
-
-/// A place at `eye` whose −Z looks at `target`, as lights and cameras do.
-fn facing(eye: DVec3, target: DVec3) -> Trs {
-    let back = (eye - target).normalize();
-    let right = DVec3::Y.cross(back).normalize();
-    let rotation = DQuat::from_mat3(&DMat3::from_cols(right, back.cross(right), back)).normalize();
-    Trs { rotation, ..at(eye.x, eye.y, eye.z) }
 }

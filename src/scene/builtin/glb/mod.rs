@@ -44,6 +44,31 @@ impl GlbPart {
     pub fn new(surface: Surface, material: Index<Material>) -> Self {
         Self { surface, material, influences: Vec::new() }
     }
+
+    /// What lies to the left (+X) and what lies to the right, by the middle of each triangle; either may be empty.
+    pub fn halves(&self) -> [Self; 2] {
+        let surface = &self.surface;
+        let is_left =
+            |triangle: &[u32; 3]| triangle.iter().map(|&at| surface.positions[at as usize].x).sum::<f64>() >= 0.0;
+        [true, false].map(|left| {
+            let mut half = Self { surface: Surface::default(), material: self.material, influences: Vec::new() };
+            let mut known: BTreeMap<u32, u32> = BTreeMap::new();
+            for triangle in surface.triangles.iter().filter(|triangle| is_left(triangle) == left) {
+                let corners = triangle.map(|at| *known.entry(at).or_insert_with(|| half.take(self, at as usize)));
+                half.surface.triangles.push(corners);
+            }
+            half
+        })
+    }
+
+    /// Appends a vertex of another; its number.
+    fn take(&mut self, other: &Self, at: usize) -> u32 {
+        self.surface.positions.push(other.surface.positions[at]);
+        self.surface.normals.push(other.surface.normals[at]);
+        self.surface.uvs.push(other.surface.uvs[at]);
+        self.influences.extend(other.influences.get(at));
+        (self.surface.positions.len() - 1) as u32
+    }
 }
 
 /// A file in the making.

@@ -44,6 +44,23 @@ impl Shape {
         shape
     }
 
+    /// Each triangle as four, cut through the middles of its edges.
+    pub fn split_in_four(&self) -> Self {
+        let mut split = Self::default();
+        for corners in &self.triangles {
+            let [a, b, c] = corners.map(|corner| (self.positions[corner], self.uvs[corner]));
+            let middle = |p: (DVec3, DVec2), q: (DVec3, DVec2)| ((p.0 + q.0) / 2.0, (p.1 + q.1) / 2.0);
+            let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+            for triangle in [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]] {
+                let first = split.positions.len();
+                split.positions.extend(triangle.map(|(position, _)| position));
+                split.uvs.extend(triangle.map(|(_, uv)| uv));
+                split.triangles.push([first, first + 1, first + 2]);
+            }
+        }
+        split
+    }
+
     /// A flat convex polygon, counter-clockwise seen from its front.
     pub fn polygon(corners: &[DVec3]) -> Self {
         Self {
@@ -151,6 +168,14 @@ mod tests {
         ] {
             assert!((0.98 * round..round).contains(&volume(&shape)), "{} of {round}", volume(&shape));
         }
+    }
+
+    #[test]
+    fn splitting_changes_no_surface() {
+        let ball = icosphere(1);
+        let split = ball.split_in_four();
+        assert_eq!(split.triangles.len(), 4 * ball.triangles.len());
+        assert!((volume(&split) - volume(&ball)).abs() < 1e-12);
     }
 
     #[test]
