@@ -56,6 +56,17 @@ fn scales(node: usize, times: &[f64], scales: &[f64]) -> Channel {
     Channel { node, property: Property::Scale, interpolation: Interpolation::Step, times_secs: times.to_vec(), values }
 }
 
+/// A node goes from one place to another in a second.
+fn slide(node: usize, places: [DVec3; 2]) -> Channel {
+    Channel {
+        node,
+        property: Property::Translation,
+        interpolation: Interpolation::Linear,
+        times_secs: vec![0.0, 1.0],
+        values: places.iter().flat_map(DVec3::to_array).collect(),
+    }
+}
+
 /// A second cube beside the first, moved and scaled.
 fn two_cubes(second: Trs) -> Scene {
     let mut scene = cube_scene(Trs::default());
@@ -80,13 +91,7 @@ fn objects_that_take_turns_by_scale_leave_no_holes() {
 fn a_clip_that_is_not_played_changes_no_voxel() {
     let scene = two_cubes(Trs { translation: DVec3::X * 3.0, ..Trs::default() });
     let mut with_another = scene.clone();
-    let slide = Channel {
-        node: 0,
-        property: Property::Translation,
-        interpolation: Interpolation::Linear,
-        times_secs: vec![0.0, 1.0],
-        values: vec![0.0, 0.0, 0.0, 0.0, 0.5, 0.0],
-    };
+    let slide = slide(0, [DVec3::ZERO, DVec3::Y / 2.0]);
     let idle = Clip { name: "idle".to_owned(), duration_secs: 1.0, channels: vec![slide] };
     let vanish =
         Clip { name: "vanish".to_owned(), duration_secs: 1.0, channels: vec![scales(1, &[0.0, 1.0], &[0.05, 40.0])] };
@@ -119,13 +124,7 @@ fn a_scale_of_zero_hides_and_along_one_axis_flattens() {
     assert!(cells > 500);
     // Flat and moving: its voxels keep their thickness.
     let mut moving = flat.clone();
-    let slide = Channel {
-        node: 1,
-        property: Property::Translation,
-        interpolation: Interpolation::Linear,
-        times_secs: vec![0.0, 1.0],
-        values: vec![3.0, 0.0, 0.0, 3.0, 0.7, 0.3],
-    };
+    let slide = slide(1, [DVec3::X * 3.0, DVec3::new(3.0, 0.7, 0.3)]);
     moving.clips.push(Clip { name: "slide".to_owned(), duration_secs: 1.0, channels: vec![slide] });
     let (cells, holes, _) = moved(&moving, &settings(64, None, 0.5));
     assert!(holes * 100 < cells, "{holes} holes of {cells}");
@@ -224,14 +223,8 @@ fn a_grid_beside_everything_says_so() {
 #[test]
 fn a_first_picture_shows_what_is_there_when_the_clip_begins_large() {
     let mut scene = cube_scene(Trs::default());
-    let walk = Channel {
-        node: 0,
-        property: Property::Translation,
-        interpolation: Interpolation::Linear,
-        times_secs: vec![0.0, 1.0],
-        values: vec![0.0, 0.0, 0.0, 100.0, 0.0, 0.0],
-    };
-    scene.clips.push(Clip { name: "walk".to_owned(), duration_secs: 1.0, channels: vec![walk] });
+    let channels = vec![slide(0, [DVec3::ZERO, 100.0 * DVec3::X])];
+    scene.clips.push(Clip { name: "walk".to_owned(), duration_secs: 1.0, channels });
     let camera = |fit: FitTo, time_secs: f64| {
         let mut settings = settings(64, Some("walk"), time_secs);
         settings.shot.fit = Fit { to: fit, ..Fit::default() };
