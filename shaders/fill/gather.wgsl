@@ -55,8 +55,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
             if (w.x.x | w.x.y) == 0u || (w.y.x | w.y.y) == 0u || (w.z.x | w.z.y) == 0u {
                 continue;
             }
-            let color = vec4<u32>(albedo_units(voxel.w), 1u);
-            let normal = unpack_biased(voxel.z);
+            let color = albedo_units(voxel.w);
+            let normal = vec4<u32>(unpack_biased(voxel.z), 1u);
             let gap = uncovered(voxel.w);
             let xy = vec4<u32>(w.x * w.y.x, w.x * w.y.y);
             l0 = add_fragment(l0, covered_weight(xy.x * w.z.x, gap), color, normal);

@@ -18,24 +18,22 @@
 const CHANNELS: u32 = 7u;
 const GROUP_THREADS: u32 = 64u;
 
-// Sums of 8 leaves: red, green, blue, weight, normal; low and high word each.
+// Sums of 8 leaves: red, green, blue, normal, weight; low and high word each.
 var<workgroup> totals: array<atomic<u32>, 112>;
 var<workgroup> heavy_count: u32;
 
-fn add_total(leaf: u32, channel: u32, high: u32, low: u32) {
-    // high·4096 + low in two words.
-    let sum = wide_add(vec2<u32>(high << HALF_BITS, high >> (32u - HALF_BITS)), vec2<u32>(low, 0u));
+fn add_total(leaf: u32, channel: u32, sum: vec2<u32>) {
     let index = 2u * (leaf * CHANNELS + channel);
     let before = atomicAdd(&totals[index], sum.x);
     atomicAdd(&totals[index + 1u], sum.y + select(0u, 1u, before + sum.x < before));
 }
 
 fn add_leaf(leaf: u32, sum: LeafSum) {
-    for (var channel = 0u; channel < 4u; channel += 1u) {
-        add_total(leaf, channel, sum.color_high[channel], sum.color_low[channel]);
-    }
     for (var channel = 0u; channel < 3u; channel += 1u) {
-        add_total(leaf, 4u + channel, sum.normal_high[channel], sum.normal_low[channel]);
+        add_total(leaf, channel, color_sum(sum, channel));
+    }
+    for (var channel = 0u; channel < 4u; channel += 1u) {
+        add_total(leaf, 3u + channel, normal_sum(sum, channel));
     }
 }
 
@@ -47,7 +45,7 @@ fn sum_leaf(first: u32, end: u32, leaf: u32, block_cell: vec3<i32>) -> LeafSum {
         let w = block_weights(sorted_voxels[i].xy, block_cell);
         let packed = sorted_voxels[i].zw;
         let weight = covered_weight(w.x[offset.x] * w.y[offset.y] * w.z[offset.z], uncovered(packed.y));
-        sum = add_fragment(sum, weight, vec4<u32>(albedo_units(packed.y), 1u), unpack_biased(packed.x));
+        sum = add_fragment(sum, weight, albedo_units(packed.y), vec4<u32>(unpack_biased(packed.x), 1u));
     }
     return sum;
 }
@@ -68,17 +66,9 @@ fn total(leaf: u32, channel: u32) -> vec2<u32> {
 }
 
 fn resolve_total(leaf: u32) -> Leaf {
-    let w = total(leaf, 3u);
-    if w.x == 0u && w.y == 0u {
-        return Leaf(0u, 0u, 0u);
-    }
-    var means: array<u32, 7>;
-    for (var channel = 0u; channel < CHANNELS; channel += 1u) {
-        means[channel] = wide_rounded_quotient(total(leaf, channel), w);
-    }
-    let occupancy = select(min(w.x, FULL_WEIGHT), FULL_WEIGHT, w.y != 0u);
-    let albedo = pack_albedo(vec3<u32>(means[0], means[1], means[2]));
-    return Leaf(occupancy, albedo, pack_biased(vec3<u32>(means[4], means[5], means[6])));
+    let color = array<vec2<u32>, 3>(total(leaf, 0u), total(leaf, 1u), total(leaf, 2u));
+    let normal = array<vec2<u32>, 3>(total(leaf, 3u), total(leaf, 4u), total(leaf, 5u));
+    return leaf_of(total(leaf, 6u), color, normal);
 }
 
 fn write_block(block: u32, key: u32) {

@@ -1,55 +1,46 @@
-// Exact sums of what falls into one leaf. A weight (up to 2^24) is split in two 12-bit halves, so
-// that each product fits: MAX_FRAGMENTS · 4096 · 16256 < 2^32. sum = 4096·high + low, divided once.
+// Exact sums of what falls into one leaf. A weight (up to 2^24) is split, so that each product fits: for albedo in three
+// bytes, MAX_FRAGMENTS · 256 · 16256 < 2^32, for the rest in two 12-bit halves, MAX_FRAGMENTS · 4096 · 1022 < 2^32.
+// Each mean is divided once.
 #import shared/albedo.wgsl
 #import shared/packing.wgsl
+#import shared/wide.wgsl
 
 const HALF_BITS: u32 = 12u;
 const HALF_MASK: u32 = 4095u;
 
 struct LeafSum {
-    // Albedo and, in w, the weight itself.
-    color_high: vec4<u32>,
-    color_low: vec4<u32>,
-    // Biased normal.
-    normal_high: vec3<u32>,
-    normal_low: vec3<u32>,
+    // Albedo.
+    color_high: vec3<u32>,
+    color_middle: vec3<u32>,
+    color_low: vec3<u32>,
+    // Biased normal and, in w, the weight itself.
+    normal_high: vec4<u32>,
+    normal_low: vec4<u32>,
 }
 
 fn empty_leaf() -> LeafSum {
-    return LeafSum(vec4<u32>(0u), vec4<u32>(0u), vec3<u32>(0u), vec3<u32>(0u));
+    return LeafSum(vec3<u32>(0u), vec3<u32>(0u), vec3<u32>(0u), vec4<u32>(0u), vec4<u32>(0u));
 }
 
-// `color` is albedo in units with 1 in w, `normal` biased.
-fn add_fragment(sum: LeafSum, weight: u32, color: vec4<u32>, normal: vec3<u32>) -> LeafSum {
-    let high = weight >> HALF_BITS;
-    let low = weight & HALF_MASK;
+// `color` is albedo in units, `normal` biased with 1 in w.
+fn add_fragment(sum: LeafSum, weight: u32, color: vec3<u32>, normal: vec4<u32>) -> LeafSum {
     return LeafSum(
-        sum.color_high + high * color,
-        sum.color_low + low * color,
-        sum.normal_high + high * normal,
-        sum.normal_low + low * normal,
+        sum.color_high + (weight >> 16u) * color,
+        sum.color_middle + ((weight >> 8u) & 0xffu) * color,
+        sum.color_low + (weight & 0xffu) * color,
+        sum.normal_high + (weight >> HALF_BITS) * normal,
+        sum.normal_low + (weight & HALF_MASK) * normal,
     );
 }
 
-// Carries, so that low < 4096.
-fn carried(high: u32, low: u32) -> vec2<u32> {
-    return vec2<u32>(high + (low >> HALF_BITS), low & HALF_MASK);
+fn color_sum(sum: LeafSum, channel: u32) -> vec2<u32> {
+    let upper = wide_add(wide_shl(vec2<u32>(sum.color_high[channel], 0u), 8u), vec2<u32>(sum.color_middle[channel], 0u));
+    return wide_add(wide_shl(upper, 8u), vec2<u32>(sum.color_low[channel], 0u));
 }
 
-// Sign of 2·(s − quotient·w) − w, for s near quotient·w; s and w as (high, low) pairs.
-fn rounds_up(s: vec2<u32>, quotient: u32, w: vec2<u32>) -> bool {
-    let low = 2 * bitcast<i32>(s.y - quotient * w.y) - bitcast<i32>(w.y);
-    let high = 2 * bitcast<i32>(s.x - quotient * w.x) - bitcast<i32>(w.x);
-    return high + (low >> HALF_BITS) >= 0;
-}
-
-// s / w rounded half up, exactly: a float guess, then perhaps one step up.
-fn rounded_quotient(s_high: u32, s_low: u32, w: vec2<u32>) -> u32 {
-    let s = carried(s_high, s_low);
-    let guess = (f32(s.x) * 4096.0 + f32(s.y)) / (f32(w.x) * 4096.0 + f32(w.y));
-    // The guess is off by less than 1/100, so its floor never exceeds the rounded quotient.
-    let quotient = u32(floor(guess));
-    return quotient + select(0u, 1u, rounds_up(s, quotient, w));
+// Channel 3 is the weight.
+fn normal_sum(sum: LeafSum, channel: u32) -> vec2<u32> {
+    return wide_add(wide_shl(vec2<u32>(sum.normal_high[channel], 0u), HALF_BITS), vec2<u32>(sum.normal_low[channel], 0u));
 }
 
 // A resolved leaf, three words: occupancy (2^24 is full, clamped), albedo, mean biased normal.
@@ -59,24 +50,19 @@ struct Leaf {
     normal: u32,
 }
 
-fn resolve_leaf(sum: LeafSum) -> Leaf {
-    let w = carried(sum.color_high.w, sum.color_low.w);
-    if w.x == 0u && w.y == 0u {
+// Of sums of albedo and normal by their weight.
+fn leaf_of(weight: vec2<u32>, color: array<vec2<u32>, 3>, normal: array<vec2<u32>, 3>) -> Leaf {
+    if weight.x == 0u && weight.y == 0u {
         return Leaf(0u, 0u, 0u);
     }
-    let albedo = vec3<u32>(
-        rounded_quotient(sum.color_high.x, sum.color_low.x, w),
-        rounded_quotient(sum.color_high.y, sum.color_low.y, w),
-        rounded_quotient(sum.color_high.z, sum.color_low.z, w),
-    );
-    let normal = vec3<u32>(
-        rounded_quotient(sum.normal_high.x, sum.normal_low.x, w),
-        rounded_quotient(sum.normal_high.y, sum.normal_low.y, w),
-        rounded_quotient(sum.normal_high.z, sum.normal_low.z, w),
-    );
-    var occupancy = FULL_WEIGHT;
-    if w.x < (FULL_WEIGHT >> HALF_BITS) {
-        occupancy = (w.x << HALF_BITS) | w.y;
-    }
-    return Leaf(occupancy, pack_albedo(albedo), pack_biased(normal));
+    let albedo = vec3<u32>(wide_mean(color[0], weight), wide_mean(color[1], weight), wide_mean(color[2], weight));
+    let mean = vec3<u32>(wide_mean(normal[0], weight), wide_mean(normal[1], weight), wide_mean(normal[2], weight));
+    let occupancy = select(min(weight.x, FULL_WEIGHT), FULL_WEIGHT, weight.y != 0u);
+    return Leaf(occupancy, pack_albedo(albedo), pack_biased(mean));
+}
+
+fn resolve_leaf(sum: LeafSum) -> Leaf {
+    let color = array<vec2<u32>, 3>(color_sum(sum, 0u), color_sum(sum, 1u), color_sum(sum, 2u));
+    let normal = array<vec2<u32>, 3>(normal_sum(sum, 0u), normal_sum(sum, 1u), normal_sum(sum, 2u));
+    return leaf_of(normal_sum(sum, 3u), color, normal);
 }

@@ -36,8 +36,9 @@ pub const FRACTION_BITS: u32 = 8;
 pub const MAX_DEPTH: u32 = 10;
 /// "Not allocated", wherever a block or node index may be absent.
 pub const NO_BLOCK: u32 = u32::MAX;
-/// Voxels that one thread may sum in two 12-bit halves without a carry: 64 · 4096 · 16256 < 2^32.
-pub const MAX_FRAGMENTS: u32 = 64;
+/// Voxels that one thread may sum without a carry: 1024 · 256 · 16256 < 2^32, by three bytes of the weight for albedo,
+/// and 1024 · 4096 · 1022 by two halves of it for normals.
+pub const MAX_FRAGMENTS: u32 = 1024;
 
 pub const CONSTANTS: &[Constant] = constants![
     integer FRACTION_BITS,
