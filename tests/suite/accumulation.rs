@@ -58,7 +58,7 @@ fn a_hundred_shuffles_give_identical_bits() {
     for filter in FILTERS {
         let shape = Shape::new(2, 0, filter);
         let first = build(&voxels, &shape);
-        assert!(!first.heavy_blocks.is_empty());
+        assert_eq!(!first.heavy_blocks.is_empty(), filter == Filter::Split);
         for _ in 0..50 {
             shuffle(&mut voxels, &mut rng);
             let again = build(&voxels, &shape);
