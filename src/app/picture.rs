@@ -58,11 +58,8 @@ impl App {
             let pose = prepared.pose(&self.settings.shot.motion).ok()?;
             prepared.scene.camera_at(prepared.camera_index(&self.settings.shot).ok()??, &pose, aspect)
         };
-        self.settings.shot.camera.or_else(of_file).unwrap_or_else(|| {
-            let mut camera = OrbitCamera::default();
-            camera.frame(self.prepared().and_then(|prepared| prepared.at_first.or(prepared.bounds)), aspect);
-            camera
-        })
+        let first = || OrbitCamera::framing(self.prepared().and_then(|prepared| prepared.at_first), aspect);
+        self.settings.shot.camera.or_else(of_file).unwrap_or_else(first)
     }
 
     /// The settings to draw: of the voxels that are there, in a pose whose exact set is there too.

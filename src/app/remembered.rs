@@ -36,9 +36,9 @@ impl Default for Remembered {
 }
 
 impl Remembered {
-    /// What a storage holds, or why it does not count.
-    fn read(storage: &dyn Storage) -> Result<Option<Self>, String> {
-        let Some(text) = storage.get_string(KEY) else { return Ok(None) };
+    /// What a storage holds of it, or why that does not count.
+    fn read(stored: Option<String>) -> Result<Option<Self>, String> {
+        let Some(text) = stored else { return Ok(None) };
         let read: Self = serde_json::from_str(&text).map_err(|error| error.to_string())?;
         match read.format {
             FORMAT => Ok(Some(read)),
@@ -66,7 +66,7 @@ impl App {
     /// Takes up where the last window ended.
     pub(super) fn remember(&mut self, storage: Option<&dyn Storage>) {
         let Some(storage) = storage else { return };
-        let read = Remembered::read(storage).and_then(|read| {
+        let read = Remembered::read(storage.get_string(KEY)).and_then(|read| {
             check_egui(storage)?;
             if read.is_none() {
                 check_file(&self.host)?;
@@ -116,38 +116,17 @@ impl App {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::HashMap;
-
     use super::*;
 
-    #[derive(Default)]
-    struct Shelf(HashMap<String, String>);
-
-    impl Storage for Shelf {
-        fn get_string(&self, key: &str) -> Option<String> {
-            self.0.get(key).cloned()
-        }
-
-        fn set_string(&mut self, key: &str, value: String) {
-            self.0.insert(key.to_owned(), value);
-        }
-
-        fn remove_string(&mut self, key: &str) {
-            self.0.remove(key);
-        }
-
-        fn flush(&mut self) {}
-    }
-
     fn read(text: &str) -> Result<Option<Remembered>, String> {
-        Remembered::read(&Shelf(HashMap::from([(KEY.to_owned(), text.to_owned())])))
+        Remembered::read(Some(text.to_owned()))
     }
 
     #[test]
     fn what_is_missing_is_as_at_first_and_what_is_more_does_no_harm() {
         let expected = Remembered { tree: true, ..Remembered::default() };
         assert_eq!(read(r#"{ "format": 1, "tree": true, "lamp": 7 }"#), Ok(Some(expected)));
-        assert_eq!(Remembered::read(&Shelf::default()), Ok(None));
+        assert_eq!(Remembered::read(None), Ok(None));
     }
 
     #[test]
@@ -156,15 +135,5 @@ mod tests {
             assert!(read(text).is_err(), "{text}");
         }
         assert!(read(r#"{ "format": 2 }"#).is_err_and(|cause| cause.contains("format 2")));
-    }
-
-    #[test]
-    fn a_broken_memory_of_egui_is_noticed() {
-        let mut shelf = Shelf::default();
-        assert_eq!(check_egui(&shelf), Ok(()));
-        eframe::set_value(&mut shelf, EGUI_KEY, &egui::Memory::default());
-        assert_eq!(check_egui(&shelf), Ok(()));
-        shelf.set_string(EGUI_KEY, "(options".to_owned());
-        assert!(check_egui(&shelf).is_err());
     }
 }

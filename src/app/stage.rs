@@ -12,17 +12,6 @@ use crate::plan::{FramePlan, Part, Pass};
 use crate::prepare::{ExactVoxels, Prepared};
 use crate::settings::Settings;
 
-/// Parts that cost more the more pixels there are.
-const OF_PIXELS: [Part; 7] = [
-    Part::SurfaceImage,
-    Part::DirectLight,
-    Part::DiffuseLight,
-    Part::GlossyTiles,
-    Part::SpecularLight,
-    Part::ComposedLight,
-    Part::Picture,
-];
-
 pub struct Stage {
     pub engine: Engine,
     pub pace: Pace,
@@ -193,8 +182,8 @@ impl Stage {
         self.builds += u64::from(building.into_iter().any(|pass| self.plan.runs(pass)));
         self.history.push(&self.timings, self.last_frame);
         let drawn = self.timings.iter().filter(|timing| timing.frame == self.last_frame);
-        let is_of_pixels = |timing: &&PassTiming| timing.pass.parts().iter().any(|part| OF_PIXELS.contains(part));
-        let view_ms: f64 = drawn.filter(is_of_pixels).map(|timing| timing.kernel.ms).sum();
+        let is_seen = |timing: &&PassTiming| timing.pass.parts().iter().any(|part| Part::SEEN.contains(part));
+        let view_ms: f64 = drawn.filter(is_seen).map(|timing| timing.kernel.ms).sum();
         if let Some(picture) = self.finished.as_ref().filter(|_| view_ms > 0.0) {
             let [width, height] = picture.size_px().map(f64::from);
             self.ms_per_pixel = view_ms / (width * height);

@@ -14,8 +14,6 @@ use crate::gpu::{Constant, constants};
 
 /// Code of 1 in leaves and nodes: four steps to one of a voxel's.
 pub const ALBEDO_CODE_ONE: u32 = 1020;
-/// Of a sum's units, 1.
-pub const ALBEDO_UNITS_ONE: u32 = units_of(255);
 
 pub const CONSTANTS: &[Constant] = constants![
     integer ALBEDO_CODE_ONE,
@@ -55,6 +53,9 @@ pub fn unpack_albedo(packed: u32) -> [f64; 3] {
 mod tests {
     use super::*;
 
+    /// White in a sum's units.
+    const UNITS_ONE: u32 = units_of(255);
+
     #[test]
     fn dark_colours_keep_their_shade() {
         let dark = [0.0015, 0.003, 0.01, 0.25];
@@ -68,11 +69,11 @@ mod tests {
 
     #[test]
     fn the_code_of_a_mean_is_the_nearest() {
-        for units in 0..=ALBEDO_UNITS_ONE {
+        for units in 0..=UNITS_ONE {
             let exact = 8.0 * f64::from(units).sqrt();
             assert!((f64::from(code_of(units)) - exact).abs() <= 0.5, "{units}");
         }
-        assert_eq!((code_of(0), code_of(ALBEDO_UNITS_ONE)), (0, ALBEDO_CODE_ONE));
+        assert_eq!((code_of(0), code_of(UNITS_ONE)), (0, ALBEDO_CODE_ONE));
     }
 
     #[test]

@@ -80,10 +80,7 @@ pub fn pinned(plan: &FramePlan, on_screen: &[Key]) -> Pinned {
 pub fn moment(part: Part, shot: &Shot) -> Digest {
     match part {
         Part::Caches => Digest::default(),
-        Part::SurfaceImage | Part::DirectLight | Part::DiffuseLight | Part::GlossyTiles | Part::SpecularLight => {
-            shot.seen()
-        }
-        Part::ComposedLight | Part::Exposure | Part::Picture => shot.seen(),
+        part if Part::SEEN.contains(&part) => shot.seen(),
         _ => shot.placed,
     }
 }

@@ -99,16 +99,6 @@ impl Engine {
 
     /// Forgets the surface image and all that is made from it.
     pub fn invalidate_surfaces(&mut self) {
-        let seen = [
-            Part::SurfaceImage,
-            Part::DirectLight,
-            Part::DiffuseLight,
-            Part::GlossyTiles,
-            Part::SpecularLight,
-            Part::ComposedLight,
-            Part::Exposure,
-            Part::Picture,
-        ];
-        seen.into_iter().for_each(|part| self.parts.forget(part));
+        Part::SEEN.into_iter().for_each(|part| self.parts.forget(part));
     }
 }

@@ -81,6 +81,17 @@ impl Part {
         Self::Picture,
         Self::Comparison,
     ];
+    /// Made of what the camera sees: other ones for another camera, and dearer the more pixels there are.
+    pub const SEEN: [Self; 8] = [
+        Self::SurfaceImage,
+        Self::DirectLight,
+        Self::DiffuseLight,
+        Self::GlossyTiles,
+        Self::SpecularLight,
+        Self::ComposedLight,
+        Self::Exposure,
+        Self::Picture,
+    ];
 
     /// What a plan says where it is kept.
     pub(super) fn unchanged(self) -> &'static str {

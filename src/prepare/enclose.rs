@@ -1,7 +1,7 @@
 //! The box that the grid encloses.
 
-use super::{Preparation, PrepareError};
-use crate::scene::bounds::{Aabb, union};
+use super::{Preparation, PrepareError, Prepared};
+use crate::scene::bounds::{Aabb, ClipBoxes, union};
 use crate::scene::{Object, Scene, Warning};
 use crate::settings::FitTo;
 
@@ -21,40 +21,61 @@ pub struct Enclosed {
     pub warnings: Vec<Warning>,
 }
 
-/// `clip`: which one the preparation's motion plays.
-pub fn enclosed(scene: &Scene, preparation: &Preparation, clip: Option<usize>) -> Result<Enclosed, PrepareError> {
-    let time_secs = preparation.motion.time_secs;
+/// `clip`: which one the preparation's motion plays. `reach`: the box of the scene over time. `earlier`: the same at
+/// another moment, whose clip begins alike.
+pub fn enclosed(
+    scene: &Scene,
+    preparation: &Preparation,
+    clip: Option<usize>,
+    reach: Option<Aabb>,
+    earlier: Option<&Prepared>,
+) -> Result<Enclosed, PrepareError> {
     let objects: Vec<Object> = scene.mesh_nodes().collect();
-    let at_first = scene.boxes_at(&objects, &scene.pose(clip, 0.0));
-    let all_at_first = || at_first.iter().copied().fold(None, union);
-    let boxes = match preparation.fit.to {
+    let begin = || scene.boxes_at(&objects, &scene.pose(clip, 0.0));
+    let (boxes, at_first) = match preparation.fit.to {
         FitTo::Box { min, max } => {
             let bounds = Some(Aabb { min, max });
             return Ok(Enclosed { bounds, at_first: bounds, warnings: Vec::new() });
         }
         FitTo::Scene => {
-            let bounds = scene.bounds_over_time();
-            return Ok(Enclosed { bounds, at_first: all_at_first(), warnings: Vec::new() });
+            let at_first = earlier.map_or_else(|| begin().into_iter().fold(None, union), |earlier| earlier.at_first);
+            return Ok(Enclosed { bounds: reach, at_first, warnings: Vec::new() });
         }
-        FitTo::Clip => scene.boxes_over_clip(&objects, clip),
-        FitTo::Pose => scene.boxes_at(&objects, &scene.pose(clip, time_secs)),
+        FitTo::Clip => {
+            let ClipBoxes { at_first, over } = scene.boxes_over_clip(&objects, clip);
+            (over, Some(at_first))
+        }
+        FitTo::Pose => (scene.boxes_at(&objects, &scene.pose(clip, preparation.motion.time_secs)), None),
     };
-    let counted = preparation.fit.counted.shown_nodes(scene)?;
-    let mut boxes: Vec<(usize, Aabb)> = (0..objects.len())
-        .filter(|&object| counted[objects[object].node])
-        .filter_map(|object| Some((object, boxes[object]?)))
-        .collect();
-    let apart = if preparation.fit.counted.only.is_empty() { take_apart(&mut boxes) } else { Vec::new() };
-    let warnings = apart.into_iter().map(|(object, times)| {
-        let object = &objects[object];
-        let sentence = format!(
-            "object \"{}\" lies {times:.0} times the size of the rest away; the grid does not enclose it unless it is fit to the scene",
-            object.name
-        );
-        Warning::new(sentence).at(object.node)
-    });
-    let counted_at_first = boxes.iter().map(|(object, _)| at_first[*object]).fold(None, union);
-    Ok(Enclosed { bounds: around(&boxes), at_first: counted_at_first, warnings: warnings.collect() })
+    let shown = preparation.fit.counted.shown_nodes(scene)?;
+    let counted = |boxes: &[Option<Aabb>]| -> Vec<(usize, Aabb)> {
+        let counted = (0..objects.len()).filter(|&object| shown[objects[object].node]);
+        counted.filter_map(|object| Some((object, boxes[object]?))).collect()
+    };
+    let mut enclosed = counted(&boxes);
+    let leaves_out = preparation.fit.counted.only.is_empty();
+    let apart = if leaves_out { take_apart(&mut enclosed) } else { Vec::new() };
+    let at_first = match (at_first, earlier) {
+        (Some(at_first), _) => enclosed.iter().map(|(object, _)| at_first[*object]).fold(None, union),
+        (None, Some(earlier)) => earlier.at_first,
+        (None, None) => {
+            let mut at_first = counted(&begin());
+            if leaves_out {
+                take_apart(&mut at_first);
+            }
+            around(&at_first)
+        }
+    };
+    let warnings = apart.into_iter().map(|(object, times)| left_out(&objects[object], times)).collect();
+    Ok(Enclosed { bounds: around(&enclosed), at_first, warnings })
+}
+
+fn left_out(object: &Object, times: f64) -> Warning {
+    let sentence = format!(
+        "object \"{}\" lies {times:.0} times the size of the rest away; the grid does not enclose it unless it is fit to the scene",
+        object.name
+    );
+    Warning::new(sentence).at(object.node)
 }
 
 /// Takes out what is small and far from the rest; returns how many times the size of the rest it makes of the whole.

@@ -24,7 +24,7 @@ pub enum PrepareError {
     )]
     TooWide { scene: String, span: f64, cells: f64, limit: f64 },
     #[error(
-        "{scene}: at a span of {span} at least {millions:.1} million voxels are expected, {bytes} in a buffer, and \
+        "{scene}: at a span of {span} about {millions:.1} million voxels are expected, {bytes} in a buffer, and \
          \"{adapter}\" allows {limit}; {would_fit} would fit"
     )]
     NoRoom {

@@ -38,11 +38,7 @@ impl Prepared {
     pub fn camera(&self, settings: &Settings, pose: &Pose, size_px: [u32; 2]) -> OrbitCamera {
         let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
         let of_file = || self.scene.camera_at(self.camera_index(&settings.shot).ok()??, pose, aspect);
-        settings.shot.camera.or_else(of_file).unwrap_or_else(|| {
-            let mut camera = OrbitCamera::default();
-            camera.frame(self.at_first.or(self.bounds), aspect);
-            camera
-        })
+        settings.shot.camera.or_else(of_file).unwrap_or_else(|| OrbitCamera::framing(self.at_first, aspect))
     }
 
     /// The box around all that a moment shows; `None` where that is nothing.

@@ -67,7 +67,11 @@ pub fn prepare_with(
     let preparation = preparation.into();
     let discretization = &preparation.discretization;
     let clip = clips::clip_index(&scene, &preparation.motion)?;
-    let Enclosed { bounds, at_first, warnings: left_out } = enclose::enclosed(&scene, &preparation, clip)?;
+    let reuse = stores.reuse.filter(|old| Arc::ptr_eq(&old.scene, &scene));
+    let reach = reuse.map_or_else(|| scene.bounds_over_time(), |old| old.reach);
+    let earlier = reuse.filter(|old| old.preparation.same_but_for_its_moment(&preparation));
+    let Enclosed { bounds, at_first, warnings: left_out } =
+        enclose::enclosed(&scene, &preparation, clip, reach, earlier)?;
     let grid = grid_around(&scene.name, bounds, discretization)?;
     let motion = scene.motion_report(grid.span, clip);
     let mut warnings = scene.warnings.clone();
@@ -77,11 +81,10 @@ pub fn prepare_with(
     warnings.extend(shared);
     let (keys, first_users) = number_caches(&mut objects);
     if let Some(room) = stores.room {
-        let pose = scene.pose(clip, preparation.motion.time_secs);
+        let pose = || scene.pose(clip, preparation.motion.time_secs);
         room.check((&scene, &pose), (&grid, discretization), (&objects, &first_users))?;
     }
     let mode = discretization.mode;
-    let reuse = stores.reuse.filter(|old| Arc::ptr_eq(&old.scene, &scene));
     let (textures, texture_hashes) = match reuse {
         Some(old) => (Arc::clone(&old.textures), Arc::clone(&old.texture_hashes)),
         None => (Arc::new(TexturePyramids::new(&scene.textures)), Arc::new(TextureHashes::new(&scene.textures))),
@@ -98,7 +101,6 @@ pub fn prepare_with(
     let parts = list_parts(&objects, &caches);
     let (brightest_emission, warning) = emission::brightest(&scene.name, &caches);
     warnings.extend(warning);
-    let reach = scene.bounds_over_time();
     let voxelize_ms = started.elapsed().as_secs_f64() * 1e3;
     Ok(Prepared {
         scene,
@@ -113,7 +115,7 @@ pub fn prepare_with(
         parts,
         brightest_emission,
         bounds,
-        at_first,
+        at_first: at_first.or(bounds),
         warnings,
         voxelize_ms,
         keys,

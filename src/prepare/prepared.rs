@@ -32,7 +32,7 @@ pub struct Prepared {
     pub preparation: Preparation,
     /// What the grid encloses or is centred on; `None` where there is nothing to see.
     pub bounds: Option<Aabb>,
-    /// What of it is there when the clip begins.
+    /// What of it is there when the clip begins, or all of it where that is nothing.
     pub at_first: Option<Aabb>,
     /// The scene's posed bounds at rest and over all its clips, wherever the grid is.
     pub reach: Option<Aabb>,

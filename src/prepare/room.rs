@@ -2,12 +2,13 @@
 //! triangles' areas.
 
 use bytesize::ByteSize;
+use glam::{DVec3, Vec3};
 
 use super::{PrepareError, PreparedObject};
 use crate::data::grid::Grid;
 use crate::data::pages::{SEGMENT_SLOTS, WORLD_VOXEL_BYTES};
 use crate::scene::bounds::Aabb;
-use crate::scene::{Object, Pose, Scene};
+use crate::scene::{Object, Pose, Primitive, Scene};
 use crate::settings::Discretization;
 
 /// What an adapter allows.
@@ -22,20 +23,27 @@ impl Room {
     /// outside the grid only the cache is on the adapter.
     pub(super) fn check(
         &self,
-        (scene, pose): (&Scene, &Pose),
+        (scene, pose): (&Scene, &dyn Fn() -> Pose),
         (grid, discretization): (&Grid, &Discretization),
         (objects, first_users): (&[PreparedObject], &[usize]),
     ) -> Result<(), PrepareError> {
-        let of_cache: Vec<f64> = first_users.iter().map(|&user| least_voxels(scene, &objects[user])).collect();
-        let inside: Vec<&PreparedObject> = inside(scene, pose, grid, objects);
-        let moved: f64 = inside.iter().map(|object| of_cache[object.cache]).sum();
-        let voxels = moved.max(of_cache.iter().sum());
-        let least = inside.len() as f64 * f64::from(SEGMENT_SLOTS);
-        let bytes = voxels.max(least) * WORLD_VOXEL_BYTES as f64;
-        let excess = bytes / self.buffer_bytes as f64;
-        if excess <= 1.0 {
+        let of_cache: Vec<f64> = first_users.iter().map(|&user| expected_voxels(scene, &objects[user])).collect();
+        let needed = |moved: &[&PreparedObject]| {
+            let voxels: f64 = moved.iter().map(|object| of_cache[object.cache]).sum();
+            let voxels = voxels.max(of_cache.iter().sum());
+            let least = moved.len() as f64 * f64::from(SEGMENT_SLOTS);
+            (voxels, least, voxels.max(least) * WORLD_VOXEL_BYTES as f64)
+        };
+        let fits = |bytes: f64| bytes <= self.buffer_bytes as f64;
+        // Nothing is posed where all of it would fit.
+        if fits(needed(&objects.iter().collect::<Vec<_>>()).2) {
             return Ok(());
         }
+        let (voxels, least, bytes) = needed(&inside(scene, &pose(), grid, objects));
+        if fits(bytes) {
+            return Ok(());
+        }
+        let excess = bytes / self.buffer_bytes as f64;
         // As many objects need as much at any span.
         let would_fit =
             if least > voxels { "fewer objects".to_owned() } else { what_fits(grid, discretization, excess) };
@@ -71,16 +79,18 @@ fn what_fits(grid: &Grid, discretization: &Discretization, excess: f64) -> Strin
     }
 }
 
-/// As many as a thin surface has at least: a column of cells across the main axis of each triangle.
-fn least_voxels(scene: &Scene, object: &PreparedObject) -> f64 {
-    let lattice = &object.lattice;
-    let of_primitive = |primitive: &crate::scene::Primitive| -> f64 {
-        let cells: Vec<_> = primitive.positions.iter().map(|p| lattice.cells_from_mesh(p.as_dvec3())).collect();
+/// As many as a thin surface has: a column of cells across the main axis of each triangle; never more than its box.
+fn expected_voxels(scene: &Scene, object: &PreparedObject) -> f64 {
+    let of_primitive = |primitive: &Primitive| -> f64 {
+        let in_cells = |position: &Vec3| object.lattice.cells_from_mesh(position.as_dvec3());
+        let cells: Vec<DVec3> = primitive.positions.iter().map(in_cells).collect();
         let columns = primitive.triangles.iter().map(|triangle| {
             let [a, b, c] = triangle.map(|vertex| cells[vertex as usize]);
             (b - a).cross(c - a).abs().max_element() / 2.0
         });
-        columns.filter(|columns| columns.is_finite()).sum()
+        let of_box =
+            Aabb::from_points(cells.iter().copied()).map_or(0.0, |cells| (cells.size().ceil() + 1.0).element_product());
+        columns.filter(|columns| columns.is_finite()).sum::<f64>().min(of_box)
     };
     scene.meshes[object.object.mesh].primitives.iter().map(of_primitive).sum()
 }

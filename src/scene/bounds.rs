@@ -64,6 +64,14 @@ pub fn union(a: Option<Aabb>, b: Option<Aabb>) -> Option<Aabb> {
     }
 }
 
+/// By object; `None` where there is nothing to see of it.
+pub struct ClipBoxes {
+    /// When the clip begins, exactly.
+    pub at_first: Vec<Option<Aabb>>,
+    /// Over all of it.
+    pub over: Vec<Option<Aabb>>,
+}
+
 /// Poses a clip is looked at, at most, for bounds over time.
 const MAX_BOUNDS_SAMPLES: usize = 257;
 
@@ -82,20 +90,21 @@ impl Scene {
         let objects: Vec<Object> = self.mesh_nodes().collect();
         let at_rest = objects.iter().fold(None, |bounds, object| union(bounds, self.object_bounds(object, &rest)));
         (0..self.clips.len()).fold(at_rest, |bounds, clip| {
-            let of_clip = self.boxes_over_clip(&objects, Some(clip));
-            of_clip.into_iter().fold(bounds, union)
+            self.boxes_over_clip(&objects, Some(clip)).over.into_iter().fold(bounds, union)
         })
     }
 
-    /// By object the box over a clip, or at rest without one; `None` where there is nothing to see of it.
-    pub fn boxes_over_clip(&self, objects: &[Object], clip: Option<usize>) -> Vec<Option<Aabb>> {
+    /// The boxes over a clip, or at rest without one.
+    pub fn boxes_over_clip(&self, objects: &[Object], clip: Option<usize>) -> ClipBoxes {
         let Some((index, clip)) = clip.and_then(|clip| Some((clip, self.clips.get(clip)?))) else {
-            return self.boxes_at(objects, &self.pose(None, 0.0));
+            let at_rest = self.boxes_at(objects, &self.pose(None, 0.0));
+            return ClipBoxes { at_first: at_rest.clone(), over: at_rest };
         };
         let times = clip.sample_times(MAX_BOUNDS_SAMPLES);
         let first = self.pose(Some(index), times.first().copied().unwrap_or(0.0));
         let moving = self.moving_nodes();
-        let mut boxes = self.boxes_at(objects, &first);
+        let at_first = self.boxes_at(objects, &first);
+        let mut over = at_first.clone();
         let movers: Vec<(usize, Mover)> = (0..)
             .zip(objects)
             .filter_map(|(number, object)| Some((number, self.mover_box(object, &moving)?)))
@@ -103,11 +112,11 @@ impl Scene {
         for pose in times.iter().skip(1).map(|&time_secs| self.pose(Some(index), time_secs)) {
             for (number, mover) in &movers {
                 if self.is_seen(&objects[*number], &pose) {
-                    boxes[*number] = union(boxes[*number], self.mover_bounds(mover, &pose));
+                    over[*number] = union(over[*number], self.mover_bounds(mover, &pose));
                 }
             }
         }
-        boxes
+        ClipBoxes { at_first, over }
     }
 
     /// By object the box in a pose, exactly; `None` where there is nothing to see of it.

@@ -48,16 +48,16 @@ fn the_camera_orbits_pans_zooms_and_frames_everything_again() {
     let framed = window.view();
     assert_changed(&through_its_camera, &framed, "framing everything");
     let center = window.view_rect().center();
-    let drag = |window: &mut Window, button| {
+    let drag = |window: &mut Window, button, by| {
         let press = |pressed, pos| egui::Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE };
         window.0.hover_at(center);
         window.0.event(press(true, center));
-        window.0.hover_at(center + vec2(60.0, 40.0));
-        window.0.event(press(false, center + vec2(60.0, 40.0)));
+        window.0.hover_at(center + by);
+        window.0.event(press(false, center + by));
         window.settle();
     };
     for button in [egui::PointerButton::Secondary, egui::PointerButton::Middle] {
-        drag(&mut window, button);
+        drag(&mut window, button, vec2(60.0, 40.0));
         assert_changed(&framed, &window.view(), "dragging");
         window.press(Modifiers::NONE, Key::F);
         assert_eq!(difference(&framed, &window.view()), 0, "F frames everything again");
@@ -65,11 +65,11 @@ fn the_camera_orbits_pans_zooms_and_frames_everything_again() {
     let camera = |window: &Window| window.app().settings().shot.camera.expect("it was moved");
     let side = |camera: &OrbitCamera| (camera.eye - camera.target).normalize();
     let at_first = camera(&window);
-    drag(&mut window, egui::PointerButton::Primary);
+    drag(&mut window, egui::PointerButton::Primary, vec2(60.0, 0.0));
     let turned = camera(&window);
     assert_changed(&framed, &window.view(), "turning");
     assert!(side(&turned).distance(side(&at_first)) > 0.01);
-    drag(&mut window, egui::PointerButton::Secondary);
+    drag(&mut window, egui::PointerButton::Secondary, vec2(60.0, 40.0));
     window.press(Modifiers::NONE, Key::F);
     let again = camera(&window);
     assert!(side(&again).distance(side(&turned)) < 1e-9, "F keeps the side that is looked from");

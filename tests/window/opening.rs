@@ -1,16 +1,14 @@
 //! Scenes that come, do not come, or are not waited for; and windows of odd sizes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use egui::vec2;
 use egui_kittest::kittest::Queryable as _;
 use octolume::export::read_settings;
-use octolume::settings::{FitTo, NodeNames};
 use serde_json::{Value, json};
 
 use crate::files::{Dropped, write};
-use crate::real_scenes::real_scenes;
-use crate::rig::{Window, assert_changed, difference, small_grid, wgpu_setup};
+use crate::rig::{Window, assert_changed, difference};
 
 impl Window {
     fn drop_file(&mut self, file: PathBuf) {
@@ -36,6 +34,25 @@ impl Window {
     }
 }
 
+/// The same triangle so many times.
+fn slow_file(folder: &Path, triangles: usize) -> PathBuf {
+    let indices = 3 * triangles;
+    let file = write(folder, "slow", &[0], vec![json!({ "mesh": 0 })], None);
+    let mut document: Value = serde_json::from_slice(&std::fs::read(&file).expect("read")).expect("JSON");
+    let add = |document: &mut Value, list: &str, item: Value| document[list].as_array_mut().expect("a list").push(item);
+    add(&mut document, "buffers", json!({ "byteLength": indices, "uri": "indices.bin" }));
+    add(&mut document, "bufferViews", json!({ "buffer": 1, "byteLength": indices }));
+    add(
+        &mut document,
+        "accessors",
+        json!({ "bufferView": 1, "componentType": 5121, "count": indices, "type": "SCALAR" }),
+    );
+    document["meshes"][0]["primitives"][0]["indices"] = json!(1);
+    std::fs::write(folder.join("indices.bin"), [0, 1, 2].repeat(triangles)).expect("written");
+    std::fs::write(&file, document.to_string()).expect("written");
+    file
+}
+
 #[test]
 fn a_broken_file_is_told_in_a_note_and_the_log_and_the_scene_before_stays() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -54,26 +71,26 @@ fn a_broken_file_is_told_in_a_note_and_the_log_and_the_scene_before_stays() {
 
 #[test]
 fn cancelling_a_voxelization_keeps_the_voxels_that_are_there() {
-    // Cells large enough that the finest grid has room on any adapter.
-    let mut settings = small_grid();
-    settings.shot.fit.to = FitTo::Scene;
-    let mut window = Window::with(wgpu_setup(), "courtyard", settings, NodeNames::default());
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = Window::open(&slow_file(folder.path(), 60).display().to_string());
+    window.outlast_notes();
     let before = window.view();
     window.click("Grid");
     window.0.get_by_label("1024³ cells").click();
     window.0.step();
     window.cancel_at_once();
     assert_eq!(window.app().settings().method.discretization.grid, 64);
+    window.outlast_notes();
     assert_eq!(difference(&before, &window.view()), 0);
     assert_eq!(window.log_count("Cancelled."), 1);
 }
 
 #[test]
 fn cancelling_a_large_file_keeps_the_scene_before() {
-    let Some(models) = real_scenes() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
     let mut window = Window::open("courtyard");
     let before = window.view();
-    window.drop_file(models.join("Sponza/Sponza.gltf"));
+    window.drop_file(slow_file(folder.path(), 1_000_000));
     window.0.step();
     window.cancel_at_once();
     assert_eq!(difference(&before, &window.view()), 0);

@@ -102,8 +102,20 @@ fn panels_folder_and_recent_scenes_come_back_and_settings_do_not() {
 }
 
 #[test]
+fn what_is_whole_or_not_there_is_not_told() {
+    let mut whole = Shelf::default();
+    eframe::set_value(&mut whole, EGUI_KEY, &egui::Memory::default());
+    for shelf in [Shelf::default(), whole] {
+        let mut window = start(shelf, "courtyard", Host::default());
+        assert_eq!(window.log_count("the window opens as it did at first"), 0);
+    }
+}
+
+#[test]
 fn what_is_broken_is_told_and_the_window_opens_as_at_first() {
-    for (key, text) in [(eframe::APP_KEY, "{ broken"), (eframe::APP_KEY, r#"{ "format": 99 }"#), (EGUI_KEY, "(((")] {
+    let app = ["{ broken", r#"{ "format": 99 }"#].map(|text| (eframe::APP_KEY, text));
+    let egui = ["(((", "(options"].map(|text| (EGUI_KEY, text));
+    for (key, text) in app.into_iter().chain(egui) {
         let shelf = Shelf(HashMap::from([(key.to_owned(), text.to_owned())]));
         let mut window = start(shelf, "courtyard", host());
         assert!(window.0.query_by_label("Nearest").is_some() && window.0.query_by_label("Timings").is_some());
