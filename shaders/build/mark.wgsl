@@ -83,6 +83,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         return;
     }
     let voxel = world_voxels[slot_of(work_item(thread), thread)];
+    if is_no_voxel(voxel) {
+        return;
+    }
     var clipped = FULL_WEIGHT;
     if voxel.x != OUTSIDE {
         let q = unpack_q(voxel.xy);

@@ -29,7 +29,7 @@ fn sorting_cell(q: vec3<i32>) -> vec3<i32> {
 }
 
 fn sorting_block(voxel: vec4<u32>) -> u32 {
-    if voxel.x == OUTSIDE || octree.leaf_block_count == 0u {
+    if is_nowhere(voxel) || octree.leaf_block_count == 0u {
         return NO_BLOCK;
     }
     let cell = sorting_cell(unpack_q(voxel.xy));

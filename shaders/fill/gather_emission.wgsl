@@ -3,6 +3,7 @@
 #import shared/threads.wgsl
 #import shared/block_sources.wgsl
 #import shared/leaf_block.wgsl
+#import shared/emission.wgsl
 #import shared/wide.wgsl
 
 @group(0) @binding(0) var<uniform> octree: OctreeParams;
@@ -23,18 +24,6 @@ struct EmissionSum {
     red: vec2<u32>,
     green: vec2<u32>,
     blue: vec2<u32>,
-}
-
-// 20 bits a channel.
-fn unpack_emission(packed: vec2<u32>) -> vec3<u32> {
-    return vec3<u32>(packed.x & EMISSION_MAX, (packed.x >> 20u) | ((packed.y & 0xffu) << 12u), (packed.y >> 8u) & EMISSION_MAX);
-}
-
-// sum + weight·value: 24 and 20 bits give 44, so 2^20 voxels fit.
-fn add_product(sum: vec2<u32>, weight: u32, value: u32) -> vec2<u32> {
-    let high = (weight >> 12u) * value;
-    let low = (weight & 0xfffu) * value;
-    return wide_add(wide_add(sum, vec2<u32>(high << 12u, high >> 20u)), vec2<u32>(low, 0u));
 }
 
 // What reaches leaf number `leaf` of the block from one range of sorted voxels.

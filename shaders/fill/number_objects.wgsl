@@ -34,16 +34,17 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     }
     let item = work_item(thread);
     let voxel = world_voxels[slot_of(item, thread)];
-    if voxel.x == OUTSIDE {
+    if is_nowhere(voxel) {
         return;
     }
     let q = unpack_q(voxel.xy);
+    let object = object_of(item, thread);
     if !SPLIT {
-        claim(nearest_cell(q), FULL_WEIGHT, item.object);
+        claim(nearest_cell(q), FULL_WEIGHT, object);
         return;
     }
     for (var corner = 0u; corner < 8u; corner += 1u) {
         let offset = corner_offset(corner);
-        claim(base_cell(q) + vec3<i32>(offset), split_weight(fraction(q), offset), item.object);
+        claim(base_cell(q) + vec3<i32>(offset), split_weight(fraction(q), offset), object);
     }
 }

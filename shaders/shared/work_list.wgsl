@@ -8,7 +8,7 @@ struct WorkItem {
     first_slot: u32,
     first_voxel: u32,
     part: u32,
-    // Object number in the scene.
+    // Object number in the scene, or OBJECT_BY_VOXEL.
     object: u32,
 }
 
@@ -22,4 +22,11 @@ fn work_item(thread: u32) -> WorkItem {
 
 fn slot_of(item: WorkItem, thread: u32) -> u32 {
     return item.first_slot + thread - item.first_thread;
+}
+
+fn object_of(item: WorkItem, thread: u32) -> u32 {
+    if item.object == OBJECT_BY_VOXEL {
+        return work_hints[item.first_voxel + thread - item.first_thread];
+    }
+    return item.object;
 }

@@ -20,6 +20,16 @@ fn unpack_q(words: vec2<u32>) -> vec3<i32> {
     return vec3<i32>(biased) - vec3<i32>(i32(FRACTION_ONE));
 }
 
+// A slot without a voxel, which has no weight that could be lost.
+fn is_no_voxel(voxel: vec4<u32>) -> bool {
+    return all(voxel.xy == vec2<u32>(NO_VOXEL));
+}
+
+// A slot without a voxel in the grid.
+fn is_nowhere(voxel: vec4<u32>) -> bool {
+    return voxel.x == OUTSIDE || is_no_voxel(voxel);
+}
+
 fn base_cell(q: vec3<i32>) -> vec3<i32> {
     return q >> vec3<u32>(FRACTION_BITS);
 }

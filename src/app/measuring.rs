@@ -13,7 +13,7 @@ use std::time::Duration;
 use crate::experiment::{self, BenchOptions, Experiment, Report, State, Subject, Table};
 use crate::gpu::Gpu;
 use crate::prepare::Prepared;
-use crate::settings::{Look, Settings, View};
+use crate::settings::{Discretization, Look, Settings, View};
 
 /// Rebuilds before those that are measured.
 const WARMUP: u32 = 1;
@@ -23,6 +23,7 @@ const WARMUP: u32 = 1;
 pub enum Measure {
     #[default]
     Kernels,
+    Discretizers,
     Light,
     Surfaces,
     Voxels,
@@ -64,8 +65,15 @@ impl Measured {
         settings.method.look = match measure {
             Measure::Kernels => Look { view: View::Voxels, accuracy: false, ..settings.method.look },
             Measure::Surfaces | Measure::Light | Measure::Voxels | Measure::Shadows => Look::default(),
+            Measure::Discretizers => Look::default(),
         };
-        if matches!(measure, Measure::Light | Measure::Voxels | Measure::Shadows) {
+        if measure == Measure::Discretizers {
+            // Each is measured, whichever is shown.
+            let (discretization, usual) = (&mut settings.method.discretization, Discretization::default());
+            discretization.discretizer = usual.discretizer;
+            (discretization.cells, discretization.filter) = (usual.cells, usual.filter);
+        }
+        if matches!(measure, Measure::Light | Measure::Voxels | Measure::Shadows | Measure::Discretizers) {
             settings.shot.camera = None;
         }
         Self { prepared: Arc::clone(prepared), settings, measure }
@@ -77,6 +85,7 @@ impl Measured {
         let pose = vec![self.settings.shot.motion.clone()];
         match self.measure {
             Measure::Kernels => experiment::bench(gpu, subject, BenchOptions { rebuild: true, ..nothing }),
+            Measure::Discretizers => experiment::discretizers(gpu, subject, WARMUP),
             Measure::Light => experiment::bench(gpu, subject, BenchOptions { light: true, ..nothing }),
             Measure::Surfaces => experiment::bench(gpu, subject, BenchOptions { surfaces: true, ..nothing }),
             Measure::Voxels => experiment::voxels(gpu, subject, pose, false),

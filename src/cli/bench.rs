@@ -25,6 +25,9 @@ pub struct Bench {
     /// Measures lit surfaces too, variant by variant
     #[arg(long)]
     surfaces: bool,
+    /// Compares the discretizers instead: moving voxels, and voxelizing the posed triangles, in turns
+    #[arg(long, conflicts_with_all = ["lighting", "surfaces"])]
+    discretizers: bool,
     /// Rebuilds before anything is measured
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     warmup: u32,
@@ -47,7 +50,12 @@ impl Bench {
         let (warmup, light, surfaces) = (self.warmup, self.lighting, self.surfaces);
         let options = BenchOptions { warmup, rebuild: true, light, surfaces };
         let subject = session.subject(&settings, self.runs);
-        let report = drive(experiment::bench(session.engine.gpu(), subject, options), None)?;
+        let gpu = session.engine.gpu();
+        let experiment = match self.discretizers {
+            true => experiment::discretizers(gpu, subject, warmup),
+            false => experiment::bench(gpu, subject, options),
+        };
+        let report = drive(experiment, None)?;
         if self.json { output::json(&report) } else { output::result(&text(&report)) }
     }
 }

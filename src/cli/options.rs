@@ -9,7 +9,7 @@ use octolume::export;
 use octolume::scene::OrbitCamera;
 use octolume::scene::load::{OpenOptions, SceneChoice};
 use octolume::settings::VoxelizationMode;
-use octolume::settings::{Discretization, Filter, Fit, NodeNames, Settings, VoxelAnchor};
+use octolume::settings::{Discretization, Discretizer, Filter, Fit, NodeNames, Settings, VoxelAnchor, VoxelizerCells};
 
 use super::cone_options::ConeOptions;
 use super::lighting_options::LightingOptions;
@@ -43,6 +43,12 @@ pub struct Common {
     /// Which point of a voxel is moved; otherwise its centre
     #[arg(long, value_name = "centre|corner", value_parser = values::name::<VoxelAnchor>)]
     anchor: Option<VoxelAnchor>,
+    /// Where the voxels of a frame come from: moved, or made anew from the posed triangles; otherwise transform
+    #[arg(long, value_name = "transform|voxelize", value_parser = values::name::<Discretizer>)]
+    discretizer: Option<Discretizer>,
+    /// How the voxelizer of posed triangles finds a cell's fragments: by a hash, or in a grid; otherwise sparse
+    #[arg(long, value_name = "sparse|dense", value_parser = values::name::<VoxelizerCells>)]
+    cells: Option<VoxelizerCells>,
     /// The octree's levels down to this one are stored densely; otherwise 6, and 5 in a grid of 64
     #[arg(long, value_name = "LEVEL")]
     dense_level: Option<u32>,
@@ -163,6 +169,8 @@ impl Common {
         set(&mut discretization.filter, self.filter);
         set(&mut discretization.mode, self.mode);
         set(&mut discretization.anchor, self.anchor);
+        set(&mut discretization.discretizer, self.discretizer);
+        set(&mut discretization.cells, self.cells);
         discretization.dense_level = self.dense_level.or(discretization.dense_level);
         discretization.span = self.span.or(discretization.span);
         discretization.check().map_err(Usage)?;

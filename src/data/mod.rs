@@ -1,6 +1,7 @@
 //! What lives between stages, each with its memory layout drawn.
 
 pub mod albedo;
+pub mod fragments;
 pub mod grid;
 pub mod light;
 pub mod matrix;

@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::gpu::{Constant, Mirror, constants, mirror};
+use crate::gpu::{Constant, GpuBuffer, Kernel, Mirror, PassBuilder, constants, mirror};
 
 /// Slots of a segment: the unit that changes owners. What small objects leave of one is lost to others, so that a
 /// hundred thousand of them still fit a binding of 128 MiB.
@@ -24,7 +24,15 @@ pub const WORLD_VOXEL_BYTES: u64 = 16;
 /// Threads between two entries of the hint table, by which a thread finds its work item.
 pub const WORK_HINT_THREADS: u32 = 64;
 
+/// Both words of the place of a slot without a voxel, as a cleared buffer has them: no voxel that reaches the grid lies
+/// a whole cell before it along every axis.
+pub const NO_VOXEL: u32 = 0;
+/// An item whose voxels have an object each, in the words behind the hints from its `first_voxel` on.
+pub const OBJECT_BY_VOXEL: u32 = u32::MAX;
+
 pub const CONSTANTS: &[Constant] = constants![
+    integer NO_VOXEL,
+    integer OBJECT_BY_VOXEL,
     integer WORK_HINT_THREADS,
 ];
 
@@ -126,12 +134,32 @@ pub struct WorkItem {
     /// Into the uploaded caches.
     pub first_voxel: u32,
     pub part: u32,
-    /// Object number in the scene.
+    /// Object number in the scene, or [`OBJECT_BY_VOXEL`].
     pub object: u32,
 }
 
 pub const MIRRORS: &[Mirror] =
     &[mirror!(WorkItem, "shared/work_list.wgsl", "WorkItem", first_thread, first_slot, first_voxel, part, object)];
+
+/// World voxels on the GPU and the list that walks them, however they were made.
+#[derive(Clone, Debug)]
+pub struct ListedVoxels {
+    pub work_items: GpuBuffer,
+    pub work_hints: GpuBuffer,
+    pub parts: GpuBuffer,
+    pub world_voxels: GpuBuffer,
+    /// One a voxel, or more: slots that hold [`NO_VOXEL`] are walked and left.
+    pub threads: u32,
+}
+
+impl ListedVoxels {
+    /// By the names in shaders/shared/work_list.wgsl.
+    pub fn bind<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
+        pass.bind("work_items", &self.work_items)
+            .bind("work_hints", &self.work_hints)
+            .bind("world_voxels", &self.world_voxels)
+    }
+}
 
 /// A part that has something to move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

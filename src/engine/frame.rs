@@ -66,7 +66,10 @@ impl Frame {
             return Some(Textures::All);
         }
         let draws = runs(Part::Picture) && self.request.settings().method.look.view == View::Mesh;
-        (draws || runs(Part::ShadowMaps)).then_some(Textures::BaseColor)
+        if draws || runs(Part::ShadowMaps) {
+            return Some(Textures::BaseColor);
+        }
+        runs(Part::Columns).then_some(Textures::None)
     }
 }
 
@@ -79,7 +82,7 @@ pub fn pinned(plan: &FramePlan, on_screen: &[Key]) -> Pinned {
 /// Of what moment a part is: when that has passed, nobody asks for it again.
 pub fn moment(part: Part, shot: &Shot) -> Digest {
     match part {
-        Part::Caches => Digest::default(),
+        Part::Caches | Part::Materials => Digest::default(),
         part if Part::SEEN.contains(&part) => shot.seen(),
         _ => shot.placed,
     }

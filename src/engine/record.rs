@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::frame::{Frame, Room, Running, moment};
-use super::parts::kinds::{self, has_outgrown, is_ready};
+use super::parts::kinds::{self, has_outgrown, is_incomplete, is_ready};
 use super::parts::{Making, Parts, part_and_pass};
 use super::pool::Turn;
 use super::times::PassTiming;
@@ -142,7 +142,7 @@ impl Engine {
             to_run[made.clone()].iter().filter(|p| has_outgrown(&self.parts, p)).map(|p| p.key.clone()).collect();
         for number in made {
             let planned = &to_run[number];
-            if !planned.key.is_made_from(&outgrown) {
+            if !planned.key.is_made_from(&outgrown) && !is_incomplete(&self.parts, planned) {
                 self.parts.finish(planned, std::mem::take(&mut timings[number]));
             }
         }
@@ -164,7 +164,15 @@ impl Engine {
 
     /// What moving and building took for a method.
     pub(super) fn build_ms(&self, keys: &Keys) -> f64 {
-        const BUILD: [Part; 5] = [Part::RigidVoxels, Part::SkinnedVoxels, Part::Masks, Part::Topology, Part::Payload];
+        const BUILD: [Part; 7] = [
+            Part::RigidVoxels,
+            Part::SkinnedVoxels,
+            Part::Columns,
+            Part::PosedVoxels,
+            Part::Masks,
+            Part::Topology,
+            Part::Payload,
+        ];
         let parts = BUILD.into_iter().filter_map(|part| Some(self.parts.timings(part, keys.get(part)?)));
         parts.flatten().map(|timing| timing.kernel.ms).sum()
     }

@@ -85,7 +85,7 @@ impl Engine {
 
     /// Forgets results so that the next frame makes them again, as [`bench`](crate) needs.
     pub fn invalidate(&mut self) {
-        let uploaded = [Part::Caches, Part::Pages];
+        let uploaded = [Part::Caches, Part::Pages, Part::Materials];
         Part::ALL.into_iter().filter(|part| !uploaded.contains(part)).for_each(|part| self.parts.forget(part));
     }
 

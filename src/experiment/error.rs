@@ -47,3 +47,12 @@ pub enum ExperimentError {
     #[error("{0} ended unexpectedly")]
     Died(String),
 }
+
+impl ExperimentError {
+    /// Something does not fit the adapter, or what is left of it.
+    pub fn is_of_room(&self) -> bool {
+        let is_of_room =
+            |error: &GpuError| matches!(error, GpuError::OutOfMemory { .. } | GpuError::BufferTooLarge { .. });
+        matches!(self, Self::Engine(EngineError::Gpu(error)) if is_of_room(error))
+    }
+}

@@ -15,6 +15,7 @@ pub mod bench;
 mod board;
 mod cost;
 mod error;
+mod exact;
 mod frames;
 mod lab;
 mod report;
@@ -35,12 +36,16 @@ pub use accuracy::rendering::{RenderingOptions, rendering};
 pub use accuracy::shadows::shadows;
 pub use accuracy::traced::{Traced, traced};
 pub use accuracy::voxels::voxels;
+pub use bench::discretizers::discretizers;
 pub use bench::{BenchOptions, bench};
 pub use board::{NamedPicture, Remark};
 pub use cost::Cost;
 pub use error::{ExperimentError, TraceError};
 pub use report::{Found, Report};
-pub use rows::{KernelReport, LightReport, RenderingRow, ShadowRow, SurfaceReport, VoxelRow, paths_in_that_time};
+pub use rows::{
+    DiscretizerReport, DiscretizerRow, KernelReport, LightReport, RenderingRow, ShadowRow, SurfaceReport, VoxelRow,
+    paths_in_that_time,
+};
 pub use subject::Subject;
 pub use surface_work::SurfaceWork;
 pub use table::Table;

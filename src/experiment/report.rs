@@ -5,7 +5,7 @@ use std::time::SystemTime;
 use serde::Serialize;
 
 use super::table::Table;
-use super::{KernelReport, RenderingRow, ShadowRow, VoxelRow};
+use super::{DiscretizerReport, KernelReport, RenderingRow, ShadowRow, VoxelRow};
 use crate::settings::Settings;
 
 #[derive(Clone, Serialize)]
@@ -30,6 +30,7 @@ pub struct Report {
 #[serde(untagged)]
 pub enum Found {
     Kernels(Box<KernelReport>),
+    Discretizers(Box<DiscretizerReport>),
     Voxels { rows: Vec<VoxelRow> },
     Shadows { rows: Vec<ShadowRow> },
     Rendering { rows: Vec<RenderingRow> },
@@ -38,6 +39,12 @@ pub enum Found {
 impl From<KernelReport> for Found {
     fn from(report: KernelReport) -> Self {
         Self::Kernels(Box::new(report))
+    }
+}
+
+impl From<DiscretizerReport> for Found {
+    fn from(report: DiscretizerReport) -> Self {
+        Self::Discretizers(Box::new(report))
     }
 }
 
@@ -93,6 +100,7 @@ impl Report {
     pub fn tables(&self) -> Vec<Table> {
         match &self.found {
             Found::Kernels(report) => report.tables(),
+            Found::Discretizers(report) => vec![report.table()],
             Found::Voxels { rows } => vec![VoxelRow::table(rows)],
             Found::Shadows { rows } => vec![ShadowRow::table(rows)],
             Found::Rendering { rows } => vec![RenderingRow::table(rows)],

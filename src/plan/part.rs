@@ -11,6 +11,12 @@ pub enum Part {
     /// World voxels of static and rigid objects, in those pages (section 3.2).
     RigidVoxels,
     SkinnedVoxels,
+    /// Materials and textures as the voxelizer of posed triangles reads them.
+    Materials,
+    /// How many columns of cells each posed triangle runs through.
+    Columns,
+    /// World voxels of the posed triangles: the other discretizer.
+    PosedVoxels,
     /// Which leaves and blocks there are, and their ranks (section 4.3).
     Masks,
     /// Keys of the blocks and pointers to children.
@@ -54,11 +60,14 @@ pub enum Part {
 
 impl Part {
     /// Every part, in flow order: each is made from parts before it.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 28] = [
         Self::Caches,
         Self::Pages,
         Self::RigidVoxels,
         Self::SkinnedVoxels,
+        Self::Materials,
+        Self::Columns,
+        Self::PosedVoxels,
         Self::Masks,
         Self::Topology,
         Self::Payload,
@@ -100,6 +109,8 @@ impl Part {
             Self::Pages => "same objects in the grid",
             Self::RigidVoxels => "no rigid object moved",
             Self::SkinnedVoxels => "pose unchanged",
+            Self::Materials => "materials unchanged",
+            Self::Columns | Self::PosedVoxels => "no triangle moved",
             Self::Masks | Self::Topology | Self::Payload | Self::ObjectNumbers => "voxels unchanged",
             Self::BlockLinks | Self::NodeLinks | Self::Emission => "voxels unchanged",
             Self::ShadowMaps => "lights and objects unmoved",

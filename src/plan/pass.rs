@@ -12,6 +12,15 @@ pub enum Pass {
     ObjectIo,
     TransformRigid,
     TransformSkinned,
+    /// Textures as the voxelizer of posed triangles reads them.
+    UploadMaterials,
+    /// Of every posed triangle.
+    CountColumns,
+    /// Before the voxelizer fills them.
+    ClearCells,
+    VoxelizeTriangles,
+    /// To one voxel of an object in a cell.
+    MergeFragments,
     MarkLeaves,
     ReduceMasks,
     ScanBlocks,
@@ -73,11 +82,16 @@ pub enum Pass {
 
 impl Pass {
     /// Every pass, in frame order.
-    pub const ALL: [Self; 45] = [
+    pub const ALL: [Self; 50] = [
         Self::UploadCaches,
         Self::ObjectIo,
         Self::TransformRigid,
         Self::TransformSkinned,
+        Self::UploadMaterials,
+        Self::CountColumns,
+        Self::ClearCells,
+        Self::VoxelizeTriangles,
+        Self::MergeFragments,
         Self::MarkLeaves,
         Self::ReduceMasks,
         Self::ScanBlocks,
@@ -128,6 +142,9 @@ impl Pass {
             Self::ObjectIo => &[Part::Pages],
             Self::TransformRigid => &[Part::RigidVoxels],
             Self::TransformSkinned => &[Part::SkinnedVoxels],
+            Self::UploadMaterials => &[Part::Materials],
+            Self::CountColumns => &[Part::Columns],
+            Self::ClearCells | Self::VoxelizeTriangles | Self::MergeFragments => &[Part::PosedVoxels],
             Self::MarkLeaves | Self::ReduceMasks | Self::ScanBlocks | Self::CountNodes => &[Part::Masks],
             Self::EmitNodes => &[Part::Topology],
             Self::SortVoxels | Self::GatherNearest | Self::GatherSplit | Self::AverageNodes => &[Part::Payload],
@@ -156,9 +173,12 @@ impl Pass {
     /// The kernels a run of it dispatches; none for work of the CPU.
     pub fn kernels(self) -> &'static [&'static str] {
         match self {
-            Self::UploadCaches | Self::ObjectIo | Self::UploadExact => &[],
+            Self::UploadCaches | Self::ObjectIo | Self::UploadMaterials | Self::ClearCells | Self::UploadExact => &[],
             Self::TransformRigid => &["transform/rigid"],
             Self::TransformSkinned => &["transform/skinned"],
+            Self::CountColumns => &["voxelize/count", "build/scan_sum", "build/scan_spread"],
+            Self::VoxelizeTriangles => &["voxelize/cover", "voxelize/shade"],
+            Self::MergeFragments => &["voxelize/merge"],
             Self::MarkLeaves => &["build/mark"],
             Self::ReduceMasks | Self::ReduceExact => &["build/reduce"],
             Self::ScanBlocks => &["build/scan_sum", "build/scan_spread"],

@@ -3,7 +3,7 @@
 use super::effects::{ConesAsked, marches_shadows};
 use super::keys::{Keys, Wanted};
 use super::{Asked, Key, KeyBuilder, Part, Pass, WantedFor};
-use crate::settings::{ColorBy, Filter, Lookup, View};
+use crate::settings::{ColorBy, Discretizer, Filter, Lookup, View};
 
 /// Why no octree is called for, if so.
 pub(super) fn octree_skipped(asked: &Asked) -> Option<&'static str> {
@@ -33,8 +33,14 @@ pub(super) fn unless(skipped: Option<&'static str>) -> Result<(), &'static str> 
     skipped.map_or(Ok(()), Err)
 }
 
+/// The posed triangles are voxelized, and no cached voxels moved.
+fn voxelizes(asked: &Asked) -> bool {
+    asked.settings.method.discretization.discretizer == Discretizer::Voxelize
+}
+
 pub(super) fn caches(asked: &Asked) -> Wanted {
     unless(octree_skipped(asked))?;
+    unless(voxelizes(asked).then_some("voxels are made from the posed triangles"))?;
     Ok(Key::of(Part::Caches).digest("new caches", asked.contents.caches).build())
 }
 
@@ -58,8 +64,31 @@ pub(super) fn skinned(asked: &Asked, keys: &Keys) -> Wanted {
     Ok(key.digest("skinned motion", asked.contents.skinned).build())
 }
 
-/// World voxels in their pages, as far as there are any.
+pub(super) fn materials(asked: &Asked) -> Wanted {
+    unless(octree_skipped(asked))?;
+    unless((!voxelizes(asked)).then_some("voxels are moved, not made from triangles"))?;
+    let key = Key::of(Part::Materials).digest("new materials", asked.contents.caches);
+    Ok(key.method("another grid", &asked.settings.method.discretization.grid).build())
+}
+
+pub(super) fn columns(asked: &Asked, keys: &Keys) -> Wanted {
+    keys.wanted(Part::Materials)?;
+    let discretization = &asked.settings.method.discretization;
+    let key = Key::of(Part::Columns).digest("triangles moved", asked.contents.placed);
+    Ok(key.method("another grid", &(discretization.grid, discretization.mode)).build())
+}
+
+pub(super) fn posed_voxels(asked: &Asked, keys: &Keys) -> Wanted {
+    let key = Key::of(Part::PosedVoxels).input("triangles moved", Part::Columns, keys.wanted(Part::Columns)?);
+    let key = key.input("new materials", Part::Materials, keys.wanted(Part::Materials)?);
+    Ok(key.method("another way to find cells", &asked.settings.method.discretization.cells).build())
+}
+
+/// World voxels, moved in their pages, as far as there are any, or made from the posed triangles.
 pub(super) fn from_voxels(key: KeyBuilder, keys: &Keys) -> Result<KeyBuilder, &'static str> {
+    if let Some(voxels) = keys.get(Part::PosedVoxels) {
+        return Ok(key.input("voxels are made from the posed triangles", Part::PosedVoxels, voxels));
+    }
     let key = key.input("voxels moved", Part::Pages, keys.wanted(Part::Pages)?);
     let halves = [Part::RigidVoxels, Part::SkinnedVoxels].into_iter().filter_map(|part| Some((part, keys.get(part)?)));
     Ok(halves.fold(key, |key, (part, voxels)| key.input("voxels moved", part, voxels)))

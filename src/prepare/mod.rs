@@ -99,7 +99,7 @@ pub fn prepare_with(
     let (caches, origins) = work.run(wanted)?;
     warnings.extend(work.into_warning());
     let parts = list_parts(&objects, &caches);
-    let (brightest_emission, warning) = emission::brightest(&scene.name, &caches);
+    let (brightest_emission, warning) = emission::brightest(&scene, &caches);
     warnings.extend(warning);
     let voxelize_ms = started.elapsed().as_secs_f64() * 1e3;
     Ok(Prepared {

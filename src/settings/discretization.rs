@@ -16,6 +16,9 @@ pub struct Discretization {
     /// above the leaves where the grid has no more.
     pub dense_level: Option<u32>,
     pub anchor: VoxelAnchor,
+    pub discretizer: Discretizer,
+    /// Of the voxelizer.
+    pub cells: VoxelizerCells,
 }
 
 impl Default for Discretization {
@@ -27,6 +30,8 @@ impl Default for Discretization {
             filter: Filter::default(),
             dense_level: None,
             anchor: VoxelAnchor::default(),
+            discretizer: Discretizer::default(),
+            cells: VoxelizerCells::default(),
         }
     }
 }
@@ -61,6 +66,28 @@ impl Discretization {
             _ => Ok(()),
         }
     }
+}
+
+/// Where the voxels of a frame come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Discretizer {
+    /// Every object is voxelized once, and its voxels are moved (section 3.2).
+    #[default]
+    Transform,
+    /// The posed triangles are voxelized every frame: what the paper compares with.
+    Voxelize,
+}
+
+/// How the voxelizer finds the fragments of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum VoxelizerCells {
+    /// By a hash of the cell: memory and clearing follow what is covered.
+    #[default]
+    Sparse,
+    /// A word for every cell of the grid, cleared every frame, as in the paper.
+    Dense,
 }
 
 /// How a moved voxel falls into cells (section 3.3).
@@ -108,4 +135,11 @@ pub enum VoxelizationMode {
     Thin,
     /// Every cell a triangle touches.
     Conservative,
+}
+
+impl VoxelizationMode {
+    /// As the kernels' CONSERVATIVE override.
+    pub fn is_conservative(self) -> f64 {
+        f64::from(u8::from(self == Self::Conservative))
+    }
 }

@@ -19,7 +19,7 @@ mod view;
 mod visibility;
 
 pub use cone_tracing::ConeTracing;
-pub use discretization::{Discretization, Filter, VoxelAnchor, VoxelizationMode};
+pub use discretization::{Discretization, Discretizer, Filter, VoxelAnchor, VoxelizationMode, VoxelizerCells};
 pub use fit::{Fit, FitTo};
 pub use format::FORMAT;
 pub use light_names::{LightChange, LightError};

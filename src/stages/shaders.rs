@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
-use super::{build, cones, fill, light, pixels, sample, surface, textures, transform, view};
+use super::{build, cones, fill, light, pixels, sample, surface, textures, transform, view, voxelize};
 use crate::color::LUMINANCE;
 use crate::data;
 use crate::gpu::{self, Constant, Mirror, Shaders, constants};
@@ -23,6 +23,7 @@ const CONSTANTS: &[&[Constant]] = &[
     data::light::CONSTANTS,
     data::octree::CONSTANTS,
     data::albedo::CONSTANTS,
+    data::fragments::CONSTANTS,
     data::packing::CONSTANTS,
     data::pages::CONSTANTS,
     data::voxel_cache::CONSTANTS,
@@ -43,11 +44,13 @@ const CONSTANTS: &[&[Constant]] = &[
     pixels::CONSTANTS,
     view::show_surfaces::CONSTANTS,
     view::slice::CONSTANTS,
+    voxelize::shade::CONSTANTS,
 ];
 
 /// Structs in bindings, list by list.
 pub const MIRRORS: &[&[Mirror]] = &[
     gpu::MIRRORS,
+    data::fragments::MIRRORS,
     data::matrix::MIRRORS,
     data::mesh::MIRRORS,
     data::octree::MIRRORS,
@@ -77,4 +80,5 @@ pub const MIRRORS: &[&[Mirror]] = &[
     view::show_shadow::MIRRORS,
     view::show_surfaces::MIRRORS,
     view::slice::MIRRORS,
+    voxelize::shade::MIRRORS,
 ];

@@ -10,7 +10,7 @@ use octolume::prepare::{CacheOrigins, PrepareError, Prepared, Stores, prepare, p
 use octolume::progress::Progress;
 use octolume::scene::{Scene, builtin, load};
 use octolume::settings::VoxelizationMode;
-use octolume::settings::{Discretization, Filter, VoxelAnchor};
+use octolume::settings::{Discretization, Discretizer, Filter, VoxelAnchor, VoxelizerCells};
 use tempfile::TempDir;
 
 use crate::real_scenes::real_scenes;
@@ -52,6 +52,8 @@ pub const SMALL: Discretization = Discretization {
     filter: Filter::Split,
     dense_level: Some(5),
     anchor: VoxelAnchor::Centre,
+    discretizer: Discretizer::Transform,
+    cells: VoxelizerCells::Sparse,
 };
 
 pub fn assert_same_voxels(found: &Prepared, expected: &Prepared) {

@@ -39,7 +39,7 @@ struct Gathered {
 fn gathered(voxels: &[Fragment], emission: &[[u32; 2]], filter: Filter) -> Gathered {
     let words: Vec<_> = voxels.iter().map(world_voxel).collect();
     let mut world = World::given(gpu(), &words);
-    world.moving.parts = upload(gpu(), "parts", &[PartRecord { emission_skew: 0, ..PartRecord::default() }]);
+    world.listed.parts = upload(gpu(), "parts", &[PartRecord { emission_skew: 0, ..PartRecord::default() }]);
     let mut buffers = OctreeBuffers::default();
     let built = world.build_in(gpu(), &Shape::new(5, 3, filter), &mut buffers);
     let fill = Filling::made(buffers.octree()).expect("built");
@@ -47,7 +47,7 @@ fn gathered(voxels: &[Fragment], emission: &[[u32; 2]], filter: Filter) -> Gathe
     let (mut light, sizes) = (EmissionBuffers::default(), buffers.octree().sizes);
     let emission = Emission::new(gpu(), &mut light, sizes, (cache_emission, world.list.threads)).expect("fits");
     run(gpu(), |frame| {
-        place_emission::record(gpu(), frame, &world.moving, sizes, &fill, &emission);
+        place_emission::record(gpu(), frame, &world.listed, sizes, &fill, &emission);
         gather_emission::record(gpu(), frame, sizes, filter, &fill, &emission);
     });
     let inside = built.places.iter().filter(|place| place[0] != u32::MAX).count() as u64;

@@ -239,3 +239,19 @@ fn shadows_have_a_row_for_every_method() {
     assert_eq!(rows.len(), 5);
     assert!(rows.iter().all(|row| row.light == known[0].name && row.error.points > 0), "{rows:?}");
 }
+
+#[test]
+fn both_discretizers_have_a_row_for_every_way() {
+    let gpu = Arc::new(device::open());
+    let mut experiments = [experiment::discretizers(&gpu, subject(), 1)];
+    finish(&mut experiments);
+    let Found::Discretizers(report) = experiments[0].report().found else { panic!("another report") };
+    let names: Vec<String> = report.rows.iter().map(|row| row.name()).collect();
+    assert_eq!(names, ["transform, split", "transform, nearest", "voxelize, sparse", "voxelize, dense"]);
+    assert!(report.rows.iter().all(|row| row.missing.is_none() && row.discretize.is_some()));
+    assert!(report.exact > 1_000 && report.triangles == 2);
+    let [.., sparse, dense] = &report.rows[..] else { panic!("two of the voxelizer") };
+    let [sparse, dense] = [sparse, dense].map(|row| counts(row.found.expect("it is compared")));
+    assert_eq!(sparse, dense);
+    assert_eq!((sparse.holes, sparse.leaves), (Some(0), report.exact));
+}

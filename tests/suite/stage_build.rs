@@ -4,13 +4,13 @@
 use octolume::data::octree::{
     MaskBuffers, OctreeParams, OctreeRef, OctreeSizes, PayloadBuffers, Slot, TopologyBuffers, mask_words,
 };
+use octolume::data::pages::ListedVoxels;
 use octolume::gpu::{Gpu, GpuBuffer, Recorder};
 use octolume::settings::Filter;
 use octolume::stages::averaging::average;
 use octolume::stages::build::scan::{self, Scanned};
 use octolume::stages::build::{COUNTER_CLIPPED, COUNTER_OCCUPIED, COUNTERS, LevelParams, emit, mark, reduce, size};
 use octolume::stages::fill::{count, gather, gather_heavy, number_objects, place};
-use octolume::stages::transform::MovingVoxels;
 
 use crate::stage_buffers::{OutBuffers, dirty, heavy_words};
 use crate::stage_rig::{World, read, run};
@@ -84,7 +84,7 @@ impl World {
     pub fn build_in(&self, gpu: &Gpu, shape: &Shape, buffers: &mut OctreeBuffers) -> Built {
         let known = OctreeParams::new(shape.depth, shape.dense_level);
         let masks = Masked::new(gpu, &known, buffers);
-        run(gpu, |frame| masks.record(gpu, frame, &self.moving, shape));
+        run(gpu, |frame| masks.record(gpu, frame, &self.listed, shape));
         let sizes = OctreeSizes::upload(gpu, &masks.counted(gpu)).expect("small");
         let out = OutBuffers::new(gpu, &sizes, self.list.threads, buffers);
         run(gpu, |frame| self.record_fill(gpu, frame, shape, (&sizes, &masks), &out, buffers));
@@ -98,7 +98,7 @@ impl World {
         let sizes = masks.sizes.clone();
         let out = OutBuffers::new(gpu, &sizes, self.list.threads, buffers);
         run(gpu, |frame| {
-            masks.record(gpu, frame, &self.moving, shape);
+            masks.record(gpu, frame, &self.listed, shape);
             size::record(gpu, frame, &sizes, &buffers.masks).expect("masks are made");
             self.record_fill(gpu, frame, shape, (&sizes, &masks), &out, buffers);
         });
@@ -116,25 +116,25 @@ impl World {
         out: &OutBuffers,
         buffers: &OctreeBuffers,
     ) {
-        let (moving, fill, emitted) = (&self.moving, &out.fill, &out.emitted);
+        let (listed, fill, emitted) = (&self.listed, &out.fill, &out.emitted);
         emit::record_start(frame, sizes, emitted);
         for level in shape.dense_level..shape.depth {
             let look_up = (&masks.reduced.blocks, &masks.ranks, &masks.reduced.leaf_bits);
             emit::record(gpu, frame, sizes, look_up, emitted, level);
         }
         fill.record_start(frame, sizes, &buffers.topology).expect("the topology is made");
-        count::record(gpu, frame, moving, sizes, shape.filter, fill);
+        count::record(gpu, frame, listed, sizes, shape.filter, fill);
         let pairs = (Scanned::Pairs, sizes.params.leaf_block_count);
         let scanned = scan::record(gpu, frame, pairs, &fill.block_counts, &fill.block_starts, &mut Vec::new());
         scanned.unwrap_or_else(|error| panic!("{error}"));
-        place::record(gpu, frame, moving, fill);
-        gather::record(gpu, frame, moving, sizes, shape.filter, fill);
+        place::record(gpu, frame, listed, fill);
+        gather::record(gpu, frame, listed, sizes, shape.filter, fill);
         gather_heavy::record(gpu, frame, sizes, shape.filter, fill);
         for level in (0..shape.depth - 1).rev() {
             average::record(gpu, frame, sizes, &emitted.first_child, &fill.nodes, level);
         }
         let bits_and_objects = (&masks.reduced.leaf_bits, &out.leaf_objects);
-        number_objects::record(gpu, frame, moving, (sizes, shape.filter), fill, bits_and_objects);
+        number_objects::record(gpu, frame, listed, (sizes, shape.filter), fill, bits_and_objects);
     }
 }
 
@@ -158,9 +158,9 @@ impl Masked {
         Self { sizes: OctreeSizes::upload(gpu, params).expect("small"), reduced, ranks }
     }
 
-    fn record(&self, gpu: &Gpu, frame: &mut Recorder, moving: &MovingVoxels, shape: &Shape) {
+    fn record(&self, gpu: &Gpu, frame: &mut Recorder, listed: &ListedVoxels, shape: &Shape) {
         let (sizes, masks) = (&self.sizes, &self.reduced);
-        mark::record(gpu, frame, moving, sizes, shape.filter, &masks.leaf_bits, &masks.counters);
+        mark::record(gpu, frame, listed, sizes, shape.filter, &masks.leaf_bits, &masks.counters);
         for level in (0..shape.depth).rev() {
             if shape.dummies {
                 reduce::record(gpu, frame, sizes, masks, level);

@@ -4,7 +4,7 @@
 use glam::{DAffine3, DVec3};
 use octolume::data::matrix::Matrix3x4;
 use octolume::data::packing::{pack_normal, pack_position, unpack_position};
-use octolume::data::pages::{Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
+use octolume::data::pages::{ListedVoxels, Pages, SegmentOrder, WorkItem, WorkList, WorkPart};
 use octolume::data::voxel_cache::{CacheVoxel, VoxelJoints};
 use octolume::gpu::{Gpu, GpuBuffer, Job, Recorder};
 use octolume::stages::fill::gather_ref::Fragment;
@@ -25,7 +25,7 @@ pub struct RigPart {
 
 /// World voxels on the GPU with the work list that walks them.
 pub struct World {
-    pub moving: MovingVoxels,
+    pub listed: ListedVoxels,
     pub list: WorkList,
 }
 
@@ -90,6 +90,16 @@ pub fn read<T: bytemuck::Pod>(gpu: &Gpu, buffer: &GpuBuffer, count: u64) -> Vec<
     gpu.read(buffer, 0..count * size_of::<T>() as u64).unwrap_or_else(|error| panic!("{error}"))
 }
 
+fn listed(gpu: &Gpu, list: &WorkList, parts: &[PartRecord], world_voxels: GpuBuffer) -> ListedVoxels {
+    ListedVoxels {
+        work_items: upload(gpu, "work items", &list.items),
+        work_hints: upload(gpu, "work hints", &list.hints),
+        parts: upload(gpu, "parts", parts),
+        world_voxels,
+        threads: list.threads,
+    }
+}
+
 impl World {
     /// Moves the parts: their segments in `order`, rigid ones first in the work list.
     pub fn moved(gpu: &Gpu, parts: &[RigPart], depth: u32, order: SegmentOrder) -> Self {
@@ -117,16 +127,13 @@ impl World {
         let (rigid_parts, skinned_parts): (Vec<_>, Vec<_>) = numbered.into_iter().partition(is_rigid);
         let rigid_threads = rigid_parts.iter().map(|work| work.voxels).sum();
         let list = WorkList::new(&pages, rigid_parts.into_iter().chain(skinned_parts));
+        let slots = buffer(gpu, "world voxels", 4 * u64::from(pages.slot_count()));
         let moving = MovingVoxels {
-            work_items: upload(gpu, "work items", &list.items),
-            work_hints: upload(gpu, "work hints", &list.hints),
-            parts: upload(gpu, "parts", &uploaded),
+            listed: listed(gpu, &list, &uploaded, slots),
             matrices: upload(gpu, "matrices", &matrices),
             cache_voxels: upload(gpu, "cache voxels", &voxels),
             cache_joints: (!joints.is_empty()).then(|| upload(gpu, "cache joints", &joints)),
-            world_voxels: buffer(gpu, "world voxels", 4 * u64::from(pages.slot_count())),
             rigid_threads,
-            skinned_threads: list.threads - rigid_threads,
         };
         run(gpu, |frame| {
             rigid::record(gpu, frame, &moving, 1 << depth);
@@ -134,7 +141,7 @@ impl World {
                 skinned::record(gpu, frame, &moving, joints, 1 << depth);
             }
         });
-        Self { moving, list }
+        Self { listed: moving.listed, list }
     }
 
     /// World voxels as given, in thread order.
@@ -143,23 +150,13 @@ impl World {
         pages.enter(0, voxels.len() as u32);
         let list =
             WorkList::new(&pages, [WorkPart { part: 0, object: 0, first_voxel: 0, voxels: voxels.len() as u32 }]);
-        let moving = MovingVoxels {
-            work_items: upload(gpu, "work items", &list.items),
-            work_hints: upload(gpu, "work hints", &list.hints),
-            parts: upload(gpu, "parts", &[PartRecord::default()]),
-            matrices: upload(gpu, "matrices", &[Matrix3x4::default()]),
-            cache_voxels: upload(gpu, "cache voxels", &[[0_u32; 4]]),
-            cache_joints: None,
-            world_voxels: upload(gpu, "world voxels", voxels),
-            rigid_threads: list.threads,
-            skinned_threads: 0,
-        };
-        Self { moving, list }
+        let slots = upload(gpu, "world voxels", voxels);
+        Self { listed: listed(gpu, &list, &[PartRecord::default()], slots), list }
     }
 
     /// What lies in the voxels' slots, in thread order.
     pub fn read(&self, gpu: &Gpu) -> Vec<[u32; 4]> {
-        let slots: Vec<[u32; 4]> = read(gpu, &self.moving.world_voxels, self.moving.world_voxels.bytes() / 16);
+        let slots: Vec<[u32; 4]> = read(gpu, &self.listed.world_voxels, self.listed.world_voxels.bytes() / 16);
         let run = |pair: &[WorkItem]| {
             let threads = pair[1].first_thread.min(self.list.threads) - pair[0].first_thread;
             let first = pair[0].first_slot as usize;

@@ -78,7 +78,8 @@ struct Agreement {
     elsewhere: usize,
     /// Normals of the triangle or of its vertices by more than [`TURNED`].
     turned: usize,
-    albedos: usize,
+    /// Albedos of materials without a texture.
+    recoloured: usize,
 }
 
 fn agreement(prepared: &Prepared, shot: &Shot<'_>, posed: &PosedTriangles<'_>) -> Agreement {
@@ -104,8 +105,7 @@ fn agreement(prepared: &Prepared, shot: &Shot<'_>, posed: &PosedTriangles<'_>) -
         if let Some(material) = material.filter(|material| material.base_color_texture.is_none()) {
             let expected = DVec3::from_slice(&material.base_color.map(f64::from));
             let apart = (DVec3::from_array(texel.albedo) - expected).abs().max_element();
-            assert!(apart < 1.0 / 255.0, "{:?} is not {expected} at {:?}", texel.albedo, point.position);
-            found.albedos += 1;
+            found.recoloured += usize::from(apart >= 1.0 / 255.0);
         }
     }
     found
@@ -129,7 +129,8 @@ fn real_scenes_are_where_rays_meet_them() {
         let found = agreement(&prepared, &shot, &posed);
         // Triangles are drawn from corners at 1/256 of a pixel: at an edge a ray may meet the neighbour.
         assert!(found.texels > 2000, "{}: {found:?}", real.file);
-        assert!(found.elsewhere.max(found.turned) * 100 < found.texels, "{}: {found:?}", real.file);
+        let differ = found.elsewhere.max(found.turned).max(found.recoloured);
+        assert!(differ * 100 < found.texels, "{}: {found:?}", real.file);
     }
 }
 

@@ -19,16 +19,20 @@ fn every_control_of_the_picture_changes_pixels_and_back() {
         ("By length", "Per voxel"),
         ("Shaded", "Shaded"),
         ("Voxel edges", "Voxel edges"),
-        ("Corner", "Centre"),
     ] {
-        if there == "Corner" {
-            window.set("Turn y", 30.0);
-        }
         let before = window.view();
         window.click(there);
         assert_changed(&before, &window.view(), there);
         window.click(back);
         assert_eq!(difference(&before, &window.view()), 0, "{back} brings the picture back");
+    }
+    window.set("Turn y", 30.0);
+    let turned = window.view();
+    for (list, there, back) in [("Anchor", "Corner", "Centre"), ("Discretizer", "Voxelize", "Transform")] {
+        window.choose(list, there);
+        assert_changed(&turned, &window.view(), there);
+        window.choose(list, back);
+        assert_eq!(difference(&turned, &window.view()), 0, "{back} brings the picture back");
     }
     window.set("Turn y", 0.0);
     assert_eq!(difference(&first, &window.view()), 0, "turning back brings the picture back");

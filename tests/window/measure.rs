@@ -56,3 +56,15 @@ fn a_finished_experiment_is_listed_and_saved_and_told_from_another_moment() {
     window.set("Turn y", 0.0);
     assert_eq!(window.count(OF_ANOTHER), 0);
 }
+
+#[test]
+fn both_discretizers_are_measured_on_the_moment_shown() {
+    let mut window = window();
+    window.choose("Measured", "Discretizers");
+    window.click("Start");
+    for text in ["discretize ms", "× transform", "transform, split", "voxelize, sparse", "voxelize, dense"] {
+        assert_eq!(window.count(text), 1, "{text}");
+    }
+    window.choose("Discretizer", "Voxelize");
+    assert_eq!(window.count(OF_ANOTHER), 0, "both are measured, whichever is shown");
+}

@@ -1,4 +1,4 @@
-//! What the voxels are made of: grid, span, what the grid is fit to, dense level, voxelization mode, anchor.
+//! What the voxels are made of: grid, span, what the grid is fit to, dense level, voxelization mode, discretizer.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,9 @@ use egui::{ComboBox, DragValue, Role, Slider, Ui, WidgetInfo};
 
 use super::{choice, control};
 use crate::app::command::Command;
-use crate::settings::{Discretization, FitTo, ShotSettings, Visibility, VoxelAnchor, VoxelizationMode};
+use crate::settings::{
+    Discretization, Discretizer, FitTo, ShotSettings, Visibility, VoxelAnchor, VoxelizationMode, VoxelizerCells,
+};
 
 /// What the panel shows.
 #[derive(Clone, Copy)]
@@ -45,11 +47,7 @@ pub fn ui(ui: &mut Ui, panel: DiscretizationPanel<'_>) -> Vec<Command> {
         (VoxelizationMode::Conservative, "Conservative", "Every cell a triangle touches: more voxels, no gaps."),
     ];
     choice(ui, "Cover", "Which cells a triangle fills. Voxelizes again.", &mut wanted.mode, &modes);
-    let anchors = [
-        (VoxelAnchor::Centre, "Centre", "Moves voxel centres."),
-        (VoxelAnchor::Corner, "Corner", "Equation 1 to the letter: a turned voxel lands up to √3 cells off."),
-    ];
-    choice(ui, "Anchor", "Which point of a voxel the transformation moves.", &mut wanted.anchor, &anchors);
+    discretizer_ui(ui, &mut wanted);
     if wanted != *current {
         commands.push(Command::Discretize(wanted));
     }
@@ -81,13 +79,7 @@ fn to_ui(ui: &mut Ui, to: &mut FitTo) {
     if matches!(current, FitTo::Box { .. }) {
         kinds.push((current, "Box", "A box by its corners, as the command line or the settings say."));
     }
-    let shown = kinds.iter().find(|kind| kind.0 == current).map_or("", |kind| kind.1);
-    let combo = ComboBox::from_id_salt("fit").width(60.0).selected_text(shown).show_ui(ui, |ui| {
-        for (kind, name, tip) in kinds {
-            ui.selectable_value(to, kind, name).on_hover_text(tip);
-        }
-    });
-    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fit to"));
+    combo(ui, "Fit to", 60.0, to, &kinds);
 }
 
 fn counted_ui(ui: &mut Ui, counted: &mut Visibility, panel: DiscretizationPanel<'_>) {
@@ -123,4 +115,53 @@ fn span_ui(ui: &mut Ui, wanted: &mut Discretization, span: Option<f64>) {
         response
     });
     wanted.span = (!automatic).then_some(value);
+}
+
+/// Where the voxels of a frame come from, and what is open about that.
+fn discretizer_ui(ui: &mut Ui, wanted: &mut Discretization) {
+    const DISCRETIZERS: [(Discretizer, &str, &str); 2] = [
+        (
+            Discretizer::Transform,
+            "Transform",
+            "Every object is voxelized once and its voxels are moved: time follows voxels, and what stretches has holes.",
+        ),
+        (
+            Discretizer::Voxelize,
+            "Voxelize",
+            "The posed triangles are voxelized every frame: no holes, no spill; time follows triangles and their cells.",
+        ),
+    ];
+    const ANCHORS: [(VoxelAnchor, &str, &str); 2] = [
+        (VoxelAnchor::Centre, "Centre", "Moves voxel centres."),
+        (VoxelAnchor::Corner, "Corner", "Equation 1 to the letter: a turned voxel lands up to √3 cells off."),
+    ];
+    const CELLS: [(VoxelizerCells, &str, &str); 2] = [
+        (VoxelizerCells::Sparse, "Sparse", "A cell's fragments by a hash of it: memory follows what is covered."),
+        (
+            VoxelizerCells::Dense,
+            "Dense",
+            "A word for every cell of the grid, cleared every frame, as in the paper: 512 MiB at 512³.",
+        ),
+    ];
+    control(ui, "By", "Where the voxels of a frame come from.", |ui| {
+        ui.horizontal(|ui| {
+            combo(ui, "Discretizer", 80.0, &mut wanted.discretizer, &DISCRETIZERS);
+            match wanted.discretizer {
+                Discretizer::Transform => combo(ui, "Anchor", 60.0, &mut wanted.anchor, &ANCHORS),
+                Discretizer::Voxelize => combo(ui, "Cells", 60.0, &mut wanted.cells, &CELLS),
+            }
+        })
+        .response
+    });
+}
+
+/// One of few, called what the label says.
+fn combo<T: Copy + PartialEq>(ui: &mut Ui, label: &str, width: f32, value: &mut T, all: &[(T, &str, &str)]) {
+    let shown = all.iter().find(|one| one.0 == *value).map_or("", |one| one.1);
+    let combo = ComboBox::from_id_salt(label).width(width).selected_text(shown).show_ui(ui, |ui| {
+        for (one, name, tip) in all {
+            ui.selectable_value(value, *one, *name).on_hover_text(*tip);
+        }
+    });
+    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, label));
 }

@@ -15,8 +15,13 @@ const COLUMN_MARGIN: f32 = 10.0;
 /// Of Start and of Cancel.
 const BUTTON_WIDTH: f32 = 54.0;
 
-const MEASURES: [(Measure, &str, &str); 5] = [
+const MEASURES: [(Measure, &str, &str); 6] = [
     (Measure::Kernels, "Kernels", "Every kernel of a whole rebuild, beside what its memory traffic alone would take."),
+    (
+        Measure::Discretizers,
+        "Discretizers",
+        "Moving voxels, nearest and split, beside voxelizing the posed triangles, sparse and dense: time, holes, spill.",
+    ),
     (
         Measure::Light,
         "Lighting",

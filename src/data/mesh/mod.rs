@@ -5,6 +5,7 @@ mod params;
 pub mod posed;
 pub mod scene;
 mod texture;
+mod triangles;
 mod vertex;
 
 use bytemuck::{Pod, Zeroable};

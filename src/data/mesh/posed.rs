@@ -20,10 +20,10 @@ use crate::settings::Hidden;
 /// What is uploaded of a scene, as a pose has it. Objects whose matrices are not finite are left out.
 #[derive(Debug)]
 pub struct PosedMesh<'a> {
-    mesh: &'a MeshScene,
-    matrices: GpuBuffer,
+    pub(super) mesh: &'a MeshScene,
+    pub(super) matrices: GpuBuffer,
     /// By object; `None` where it is hidden, or its matrix not finite.
-    first: Vec<Option<FirstMatrix>>,
+    pub(super) first: Vec<Option<FirstMatrix>>,
 }
 
 /// One primitive of one object.
@@ -77,9 +77,7 @@ impl<'a> PosedMesh<'a> {
         let mesh = self.mesh;
         let material = mesh.scene.material_of(primitive);
         let batch = mesh.batches.get(place.batch)?;
-        // A skinned object's primitive without joints follows its node, as in voxelization.
-        let is_skinned = matches!(object.motion, Motion::Skinned { .. }) && !primitive.joints.is_empty();
-        let joints = batch.joints.as_ref().filter(|_| is_skinned);
+        let joints = batch.joints.as_ref().filter(|_| mesh.is_skinned(object, primitive, place));
         let first_matrix = if joints.is_some() { first.joints } else { first.node };
         // Without an image white stands in: all it says is multiplied, and the normal map asks first.
         let white = mesh.white.as_ref()?;
@@ -136,9 +134,9 @@ impl PosedDraw<'_> {
 
 /// Where an object's matrices begin: its node's, and its skin's if it has one.
 #[derive(Clone, Copy, Debug)]
-struct FirstMatrix {
-    node: u32,
-    joints: u32,
+pub(super) struct FirstMatrix {
+    pub node: u32,
+    pub joints: u32,
 }
 
 struct Matrices {

@@ -9,7 +9,7 @@ use super::texture::{self, MeshTexture, RecordLevels};
 use super::vertex::{mesh_vertex, vertex_joints};
 use crate::data::texels::Texels;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Job, JobState, Recorder};
-use crate::scene::{Motion, Object, Scene, TextureRef};
+use crate::scene::{Motion, Object, Primitive, Scene, TextureRef};
 use crate::settings::Hidden;
 
 /// Vertices of a batch, unless one primitive has more: 24 MiB, uploaded in one go.
@@ -39,6 +39,8 @@ pub(super) struct Place {
 /// Which textures are uploaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Textures {
+    /// Triangles alone.
+    None,
     /// What the mesh view and shadow maps read.
     BaseColor,
     /// What the surface image reads.
@@ -164,6 +166,12 @@ impl MeshScene {
         waiting
     }
 
+    /// A skinned object's primitive without joints follows its node, as in voxelization.
+    pub(super) fn is_skinned(&self, object: &Object, primitive: &Primitive, place: &Place) -> bool {
+        let has_joints = self.batches.get(place.batch).is_some_and(|batch| batch.joints.is_some());
+        matches!(object.motion, Motion::Skinned { .. }) && !primitive.joints.is_empty() && has_joints
+    }
+
     /// `None` where the slot is empty, its image has no texels, or it is not uploaded.
     pub(super) fn texture(&self, slot: Option<TextureRef>, texels: Texels) -> Option<&MeshTexture> {
         self.textures.get(&(slot?.texture, texels))
@@ -225,7 +233,11 @@ fn read_textures<'a>(
             (material.metallic_roughness_texture, Texels::Linear),
             (material.normal_texture, Texels::Linear),
         ];
-        let count = if textures == Textures::All { all.len() } else { 1 };
+        let count = match textures {
+            Textures::None => 0,
+            Textures::BaseColor => 1,
+            Textures::All => all.len(),
+        };
         all.into_iter().take(count).filter_map(|(slot, texels)| Some((slot?.texture, texels)))
     });
     let has_texels =

@@ -3,7 +3,8 @@
 use super::caches::Caches;
 use super::masks::Masks;
 use super::payload::octree;
-use super::world_voxels::moving_voxels;
+use super::posed_voxels::PosedVoxels;
+use super::world_voxels::world_voxels;
 use super::{Made, Making, Parts, Read};
 use crate::data::light::EmissionBuffers;
 use crate::engine::EngineError;
@@ -26,14 +27,18 @@ impl Made for LeafEmission {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let voxels = moving_voxels(making, parts)?;
+        let voxels = world_voxels(making, parts)?;
         let octree = octree(making, parts)?;
         let fill = Filling::made(octree)?;
-        let caches = parts.made::<Caches>(making.keys)?;
-        let missing = || GpuError::Missing { label: "cache emission".to_owned() };
-        let of_caches = caches.emission.clone().ok_or_else(missing)?;
+        let of_voxels = match parts.get::<PosedVoxels>(making.keys) {
+            Some(voxels) => voxels.emission()?,
+            None => {
+                let missing = || GpuError::Missing { label: "cache emission".to_owned() };
+                parts.made::<Caches>(making.keys)?.emission.clone().ok_or_else(missing)?
+            }
+        };
         let filter = parts.made::<Masks>(making.keys)?.filter;
-        let from = (of_caches, voxels.threads());
+        let from = (of_voxels, voxels.threads);
         let emission = Emission::new(making.gpu, &mut self.buffers, octree.sizes, from)?;
         making.begin(frame, Pass::GatherEmission);
         place_emission::record(making.gpu, frame, &voxels, octree.sizes, &fill, &emission);

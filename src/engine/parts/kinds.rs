@@ -2,6 +2,7 @@
 //! them imports it.
 
 use super::caches::Caches;
+use super::columns::Columns;
 use super::composed::{ComposedLight, Exposure};
 use super::cones::{DiffuseLight, GlossyTiles, SpecularLight};
 use super::emission::LeafEmission;
@@ -10,10 +11,12 @@ use super::light::{Irradiance, Light};
 use super::links::{BlockLinks, NodeLinks};
 use super::making::Making;
 use super::masks::Masks;
+use super::materials::Materials;
 use super::object_numbers::ObjectNumbers;
 use super::pages::Pages;
 use super::payload::Payload;
 use super::picture::Drawn;
+use super::posed_voxels::PosedVoxels;
 use super::shadow_maps::ShadowMaps;
 use super::store::{Made, Parts, Read, Telling};
 use super::surfaces::{DirectLight, Surfaces};
@@ -50,7 +53,7 @@ macro_rules! kinds {
 }
 
 kinds! {
-    Caches, Pages, RigidVoxels, SkinnedVoxels,
+    Caches, Pages, RigidVoxels, SkinnedVoxels, Materials, Columns, PosedVoxels,
     Masks, Topology, Payload, ObjectNumbers, BlockLinks, NodeLinks, LeafEmission,
     ShadowMaps, Light, Irradiance,
     Surfaces, DirectLight, DiffuseLight, GlossyTiles, SpecularLight, ComposedLight, Exposure,
@@ -82,6 +85,14 @@ pub fn received(parts: &mut Parts, planned: &PlannedPart, gpu: &Gpu, bytes: &[u8
     {
         parts.likely.note_sizes(method, counted.params);
     }
+    if planned.part == Part::PosedVoxels
+        && let Some(voxels) = parts.of_key::<PosedVoxels>(&planned.key)
+        && let Some(needed) = voxels.needed()
+        && let Some((_, columns)) = planned.key.inputs().find(|(part, _)| *part == Part::Columns)
+    {
+        let lacked_room = voxels.has_outgrown();
+        parts.likely.note_fragments(columns.method(), needed, lacked_room);
+    }
     if planned.part == Part::GlossyTiles
         && let Some(count) = parts.of_key::<GlossyTiles>(&planned.key).and_then(|tiles| tiles.count)
     {
@@ -93,15 +104,23 @@ pub fn received(parts: &mut Parts, planned: &PlannedPart, gpu: &Gpu, bytes: &[u8
 /// Whether a part counted more than what is behind it had room for.
 pub fn has_outgrown(parts: &Parts, planned: &PlannedPart) -> bool {
     match planned.part {
+        Part::Columns => parts.of_key(&planned.key).is_some_and(Columns::has_outgrown),
+        Part::PosedVoxels => parts.of_key(&planned.key).is_some_and(PosedVoxels::has_outgrown),
         Part::Masks => parts.of_key(&planned.key).is_some_and(Masks::has_outgrown),
         Part::GlossyTiles => parts.of_key(&planned.key).is_some_and(GlossyTiles::has_outgrown),
         _ => false,
     }
 }
 
+/// Whether a part lacks some of what it is, for want of room.
+pub fn is_incomplete(parts: &Parts, planned: &PlannedPart) -> bool {
+    planned.part == Part::PosedVoxels && has_outgrown(parts, planned)
+}
+
 /// Whether a part can be recorded: how large its inputs are is known, or likely.
 pub fn is_ready(parts: &Parts, planned: &PlannedPart) -> bool {
     let is_sized = |(part, key): (Part, &Key)| match part {
+        Part::Columns => parts.of_key::<Columns>(key).is_none_or(|columns| columns.count().is_some()),
         Part::Masks if planned.part == Part::Comparison => true,
         Part::Masks => parts.of_key::<Masks>(key).is_none_or(|masks| masks.sizes().is_some()),
         Part::GlossyTiles => parts.of_key::<GlossyTiles>(key).is_none_or(|tiles| tiles.room().is_some()),

@@ -3,7 +3,7 @@
 //! needs to know how many there are: as many as the last time and a share more, where there was one; the GPU counts,
 //! and the true sizes come back later.
 
-use super::world_voxels::moving_voxels;
+use super::world_voxels::world_voxels;
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::{MaskBuffers, OctreeParams, OctreeSizes, Slot};
 use crate::engine::EngineError;
@@ -79,10 +79,10 @@ impl Made for Masks {
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
         let (gpu, discretization) = (making.gpu, &making.method.settings().method.discretization);
-        let voxels = moving_voxels(making, parts)?;
+        let voxels = world_voxels(making, parts)?;
         let (depth, filter) = (discretization.depth(), discretization.filter);
         let octree = OctreeParams::new(depth, discretization.deepest_dense());
-        (self.filter, self.voxels, self.counts) = (filter, voxels.threads(), None);
+        (self.filter, self.voxels, self.counts) = (filter, voxels.threads, None);
         self.room = parts.likely.sizes(making.own_key()?.method(), making.estimated_share);
         let sizes = OctreeSizes::write(gpu, &mut self.params, &octree)?;
         let masks = reduce::Masks::new(gpu, &octree, &mut self.buffers)?;

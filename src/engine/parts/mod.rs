@@ -6,6 +6,7 @@
 //! ```
 
 pub mod caches;
+pub mod columns;
 pub mod composed;
 pub mod cones;
 pub mod emission;
@@ -16,10 +17,12 @@ pub mod links;
 mod likely;
 mod making;
 pub mod masks;
+pub mod materials;
 pub mod object_numbers;
 pub mod pages;
 pub mod payload;
 pub mod picture;
+pub mod posed_voxels;
 pub mod shadow_maps;
 mod store;
 pub mod surfaces;

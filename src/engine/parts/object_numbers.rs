@@ -2,7 +2,7 @@
 
 use super::masks::Masks;
 use super::payload::octree;
-use super::world_voxels::moving_voxels;
+use super::world_voxels::world_voxels;
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::Slot;
 use crate::engine::EngineError;
@@ -24,7 +24,7 @@ impl Made for ObjectNumbers {
         parts: &Parts,
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
-        let voxels = moving_voxels(making, parts)?;
+        let voxels = world_voxels(making, parts)?;
         let octree = octree(making, parts)?;
         let fill = Filling::made(octree)?;
         let filter = parts.made::<Masks>(making.keys)?.filter;

@@ -3,7 +3,7 @@
 
 use super::masks::{Masks, sizes};
 use super::topology::Topology;
-use super::world_voxels::moving_voxels;
+use super::world_voxels::world_voxels;
 use super::{Made, Making, Parts, Read};
 use crate::data::octree::{OctreeRef, PayloadBuffers};
 use crate::engine::EngineError;
@@ -31,12 +31,12 @@ impl Made for Payload {
         frame: &mut Recorder,
     ) -> Result<Option<Read>, EngineError> {
         let gpu = making.gpu;
-        let voxels = moving_voxels(making, parts)?;
+        let voxels = world_voxels(making, parts)?;
         let masks = parts.made::<Masks>(making.keys)?;
         let topology = parts.made::<Topology>(making.keys)?;
         let (sizes, filter) = (sizes(making, parts)?, masks.filter);
         let (masks, topology) = (&masks.buffers, &topology.buffers);
-        let fill = Filling::new(gpu, sizes, masks, topology, &mut self.buffers, voxels.threads())?;
+        let fill = Filling::new(gpu, sizes, masks, topology, &mut self.buffers, voxels.threads)?;
         making.begin(frame, Pass::SortVoxels);
         fill.record_start(frame, sizes, topology)?;
         count::record(gpu, frame, &voxels, sizes, filter, &fill);

@@ -2,6 +2,8 @@
 
 use super::super::Engine;
 use super::super::parts::exact::Comparison;
+use super::super::parts::masks::Masks;
+use super::super::parts::posed_voxels::PosedVoxels;
 use super::super::reports::{AccuracyReport, FilterReport, LevelReport, OctreeReport};
 use super::super::request::Request;
 use super::Built;
@@ -46,7 +48,7 @@ impl Engine {
     pub(super) fn report_octree(&self, request: &Request, keys: &Keys) -> Option<OctreeReport> {
         let built = self.built(keys)?;
         let (params, levels) = (&built.counts.params, built.levels());
-        let voxels = u64::from(built.masks.voxels);
+        let voxels = self.world_voxels(keys, built.masks);
         let kept_weight = voxels * u64::from(FULL_WEIGHT) - built.counts.clipped_weight;
         Some(OctreeReport {
             filter: built.masks.filter,
@@ -73,6 +75,12 @@ impl Engine {
         })
     }
 
+    /// That the octree is built from.
+    fn world_voxels(&self, keys: &Keys, masks: &Masks) -> u64 {
+        let posed = self.parts.finished::<PosedVoxels>(keys).and_then(|voxels| voxels.counts);
+        posed.map_or(masks.voxels, |counts| counts.voxels).into()
+    }
+
     fn filter_report(&self, keys: &Keys) -> Option<FilterReport> {
         let built = self.built(keys)?;
         let levels = built.levels();
@@ -81,7 +89,7 @@ impl Engine {
             filter: built.masks.filter,
             kernel_ms: self.build_ms(keys),
             times: self.times.of(keys.get(Part::Payload)?.method()).unwrap_or_default(),
-            voxels: built.masks.voxels.into(),
+            voxels: self.world_voxels(keys, built.masks),
             leaves: built.counts.params.leaf_count.into(),
             nodes: levels.iter().map(|level| level.nodes).sum(),
             bytes: levels.iter().map(|level| level.bytes).sum(),

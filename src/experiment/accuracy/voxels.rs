@@ -41,7 +41,7 @@ pub fn voxels(gpu: &Arc<Gpu>, mut subject: Subject, poses: Vec<MotionSettings>, 
 
 async fn compare_filters(lab: &mut Lab, settings: &Settings, share: Share) -> Result<VoxelRow, ExperimentError> {
     let [voxelizing, building, measuring] = share.split([2.0, 1.0, lab.runs as f32]);
-    take_exact(lab, settings, voxelizing).await?;
+    lab.take_exact(settings, voxelizing).await?;
     lab.say(building, "building by both filters");
     lab.run(settings, NO_PICTURE, building).await?;
     let (mut nearest_ms, mut split_ms) = (Vec::new(), Vec::new());
@@ -78,18 +78,6 @@ async fn compare_filters(lab: &mut Lab, settings: &Settings, share: Share) -> Re
         nearest: with_median(report.nearest, &nearest_ms).ok_or_else(nothing)?,
         split: with_median(report.split, &split_ms).ok_or_else(nothing)?,
     })
-}
-
-/// Voxelizes the posed mesh exactly.
-async fn take_exact(lab: &mut Lab, settings: &Settings, share: Share) -> Result<(), ExperimentError> {
-    let (prepared, motion) = (Arc::clone(&lab.prepared), settings.shot.motion.clone());
-    let hidden = prepared.hidden(&settings.shot.visibility, &prepared.pose(&settings.shot.motion)?)?;
-    let exact =
-        lab.work((share, "voxelizing the posed mesh"), move |progress| prepared.exact(&motion, &hidden, progress));
-    let exact = exact.await??;
-    lab.warn(&exact.warnings);
-    lab.engine.offer_exact(Arc::new(exact));
-    Ok(())
 }
 
 /// `STEM-nearest` and `STEM-split`.

@@ -5,6 +5,7 @@
 
 pub mod copy;
 pub mod copy_ref;
+pub mod discretizers;
 mod light;
 mod rebuild;
 mod sampling;

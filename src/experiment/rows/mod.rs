@@ -1,5 +1,6 @@
 //! What experiments tell: the rows of each, and the tables made of them.
 
+mod discretizers;
 mod kernels;
 mod light;
 mod race;
@@ -8,6 +9,7 @@ mod shadows;
 mod surfaces;
 mod voxels;
 
+pub use discretizers::{DiscretizerReport, DiscretizerRow};
 pub use kernels::KernelReport;
 pub use light::{LightReport, MemoryReport, SamplingCost};
 pub use race::{PathsError, Race};

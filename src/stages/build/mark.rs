@@ -2,26 +2,26 @@
 
 use super::COUNTERS;
 use crate::data::octree::{OctreeSizes, mask_words};
+use crate::data::pages::ListedVoxels;
 use crate::gpu::{Gpu, GpuBuffer, Recorder};
 use crate::settings::Filter;
-use crate::stages::transform::MovingVoxels;
 
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
-    voxels: &MovingVoxels,
+    voxels: &ListedVoxels,
     octree: &OctreeSizes,
     filter: Filter,
     leaf_bits: &GpuBuffer,
     counters: &GpuBuffer,
 ) {
-    let threads = u64::from(voxels.threads());
+    let threads = u64::from(voxels.threads);
     let mask_bytes = 4 * u64::from(mask_words(octree.params.depth));
     frame.clear_part(leaf_bits, mask_bytes);
     frame.clear_part(counters, 8 * u64::from(COUNTERS));
     let pass = frame.pass(&gpu.kernel("build/mark.wgsl", &[("SPLIT", filter.is_split())]));
     voxels
-        .bind_world(pass)
+        .bind(pass)
         .bind("octree", &octree.buffer)
         .bind("leaf_bits", leaf_bits)
         .bind("counters", counters)

@@ -10,6 +10,8 @@ use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 pub enum Scanned {
     /// The set bits of each word.
     Bits,
+    /// The words themselves.
+    Words,
     /// The words themselves, as two interleaved sequences.
     Pairs,
 }
@@ -17,7 +19,7 @@ pub enum Scanned {
 impl Scanned {
     pub fn channels(self) -> u32 {
         match self {
-            Self::Bits => 1,
+            Self::Bits | Self::Words => 1,
             Self::Pairs => 2,
         }
     }

@@ -2,22 +2,22 @@
 
 use super::Filling;
 use crate::data::octree::OctreeSizes;
+use crate::data::pages::ListedVoxels;
 use crate::gpu::{Gpu, Recorder};
 use crate::settings::Filter;
-use crate::stages::transform::MovingVoxels;
 
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
-    voxels: &MovingVoxels,
+    voxels: &ListedVoxels,
     octree: &OctreeSizes,
     filter: Filter,
     fill: &Filling,
 ) {
-    let threads = u64::from(voxels.threads());
+    let threads = u64::from(voxels.threads);
     let pass = frame.pass(&gpu.kernel("fill/count.wgsl", &[("SPLIT", filter.is_split())]));
     voxels
-        .bind_world(pass)
+        .bind(pass)
         .bind("octree", &octree.buffer)
         .bind("blocks", &fill.blocks)
         .bind("ranks", &fill.ranks)

@@ -2,20 +2,20 @@
 
 use super::Filling;
 use crate::data::octree::{OctreeParams, OctreeSizes};
+use crate::data::pages::ListedVoxels;
 use crate::data::pages::WORLD_VOXEL_BYTES;
 use crate::gpu::{Counted, Gpu, Recorder};
 use crate::settings::Filter;
-use crate::stages::transform::MovingVoxels;
 
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
-    voxels: &MovingVoxels,
+    voxels: &ListedVoxels,
     octree: &OctreeSizes,
     filter: Filter,
     fill: &Filling,
 ) {
-    let voxel_bytes = WORLD_VOXEL_BYTES * u64::from(voxels.threads());
+    let voxel_bytes = WORLD_VOXEL_BYTES * u64::from(voxels.threads);
     let pass = frame.pass(&gpu.kernel("fill/gather.wgsl", &[("SPLIT", filter.is_split())]));
     fill.bind_sources(pass, octree)
         .bind("leaves", &fill.leaves)

@@ -2,9 +2,9 @@
 
 use super::Filling;
 use crate::data::octree::{OctreeParams, OctreeSizes};
+use crate::data::pages::ListedVoxels;
 use crate::gpu::{Constant, Counted, Gpu, GpuBuffer, Recorder, constants};
 use crate::settings::Filter;
-use crate::stages::transform::MovingVoxels;
 
 /// One word a leaf; the object is `OBJECT_MASK − (word & OBJECT_MASK)`.
 pub const OBJECT_MASK: u32 = 0xffff;
@@ -16,16 +16,16 @@ pub const CONSTANTS: &[Constant] = constants![
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
-    voxels: &MovingVoxels,
+    voxels: &ListedVoxels,
     (octree, filter): (&OctreeSizes, Filter),
     fill: &Filling,
     (leaf_bits, leaf_objects): (&GpuBuffer, &GpuBuffer),
 ) {
-    let threads = u64::from(voxels.threads());
+    let threads = u64::from(voxels.threads);
     frame.clear_part(leaf_objects, 4 * u64::from(octree.params.leaf_count));
     let pass = frame.pass(&gpu.kernel("fill/number_objects.wgsl", &[("SPLIT", filter.is_split())]));
     voxels
-        .bind_world(pass)
+        .bind(pass)
         .bind("octree", &octree.buffer)
         .bind("blocks", &fill.blocks)
         .bind("ranks", &fill.ranks)

@@ -1,14 +1,14 @@
 //! Second half of the counting sort: world voxels in block order.
 
 use super::Filling;
+use crate::data::pages::ListedVoxels;
 use crate::gpu::{Gpu, Recorder};
-use crate::stages::transform::MovingVoxels;
 
-pub fn record(gpu: &Gpu, frame: &mut Recorder, voxels: &MovingVoxels, fill: &Filling) {
-    let threads = u64::from(voxels.threads());
+pub fn record(gpu: &Gpu, frame: &mut Recorder, voxels: &ListedVoxels, fill: &Filling) {
+    let threads = u64::from(voxels.threads);
     let pass = frame.pass(&gpu.kernel("fill/place.wgsl", &[]));
     voxels
-        .bind_world(pass)
+        .bind(pass)
         .bind("places", &fill.places)
         .bind("block_starts", &fill.block_starts)
         .bind("sorted_voxels", &fill.sorted_voxels)

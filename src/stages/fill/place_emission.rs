@@ -3,8 +3,8 @@
 use super::Filling;
 use crate::data::light::EmissionBuffers;
 use crate::data::octree::{OctreeParams, OctreeSizes};
+use crate::data::pages::ListedVoxels;
 use crate::gpu::{Counted, Gpu, GpuBuffer, GpuError, Recorder};
-use crate::stages::transform::MovingVoxels;
 
 /// Emission on its way from caches to leaves.
 #[derive(Clone, Debug)]
@@ -40,12 +40,12 @@ impl Emission {
 pub fn record(
     gpu: &Gpu,
     frame: &mut Recorder,
-    voxels: &MovingVoxels,
+    voxels: &ListedVoxels,
     octree: &OctreeSizes,
     fill: &Filling,
     emission: &Emission,
 ) {
-    let threads = u64::from(voxels.threads());
+    let threads = u64::from(voxels.threads);
     frame.clear_part(&emission.emitting_blocks, 4 * u64::from(octree.params.leaf_block_count));
     frame
         .pass(&gpu.kernel("fill/place_emission.wgsl", &[]))

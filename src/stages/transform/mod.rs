@@ -8,6 +8,7 @@ pub mod skinned_ref;
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::data::pages::ListedVoxels;
 use crate::gpu::{GpuBuffer, Kernel, Mirror, PassBuilder, mirror};
 
 /// Mirror of `TransformParams` in shaders/shared/move_voxel.wgsl.
@@ -38,34 +39,24 @@ pub const MIRRORS: &[Mirror] = &[
 /// The buffers of a transformation. Rigid parts come first in the work list, then skinned ones.
 #[derive(Clone, Debug)]
 pub struct MovingVoxels {
-    pub work_items: GpuBuffer,
-    pub work_hints: GpuBuffer,
-    pub parts: GpuBuffer,
+    pub listed: ListedVoxels,
     pub matrices: GpuBuffer,
     pub cache_voxels: GpuBuffer,
     /// Made only where a skin is in the scene.
     pub cache_joints: Option<GpuBuffer>,
-    pub world_voxels: GpuBuffer,
     pub rigid_threads: u32,
-    pub skinned_threads: u32,
 }
 
 impl MovingVoxels {
-    pub fn threads(&self) -> u32 {
-        self.rigid_threads + self.skinned_threads
+    pub fn skinned_threads(&self) -> u32 {
+        self.listed.threads - self.rigid_threads
     }
 
-    /// World voxels and the list that walks them, by the names in shaders/shared/work_list.wgsl.
-    pub(super) fn bind_world<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
-        pass.bind("work_items", &self.work_items)
-            .bind("work_hints", &self.work_hints)
-            .bind("world_voxels", &self.world_voxels)
-    }
-
-    /// The same, and what they are moved from.
-    fn bind_all<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
-        self.bind_world(pass)
-            .bind("parts", &self.parts)
+    /// World voxels, the list that walks them, and what they are moved from.
+    fn bind<'r>(&self, pass: PassBuilder<'r, Kernel>) -> PassBuilder<'r, Kernel> {
+        self.listed
+            .bind(pass)
+            .bind("parts", &self.listed.parts)
             .bind("matrices", &self.matrices)
             .bind("cache_voxels", &self.cache_voxels)
     }

@@ -1,31 +1,47 @@
-//! Pre-voxelization (section 3.1): triangles to cells, on the CPU, once per object.
+//! Voxelization, two ways. Before everything else (section 3.1): triangles to cells, on the CPU, once per object. Or on
+//! the GPU, every frame, of the posed triangles: what the paper compares its transformation with.
 //!
 //! ```text
 //! triangles ──► fragments (cell, triangle) ──► sorted by cell ──► voxels with payload
 //!         coverage                    fragments            clip, surface, payload, joints
+//!
+//! posed triangles ──► columns ──► fragments ──► the same, shaded ──► world voxels        every frame, on the GPU
+//!               count        cover         shade             merge
 //! ```
 //!
 //! In: meshes whose positions are in cells of the cache's lattice. Out: a [`VoxelCache`], or the
 //! covered cells alone. Results depend on the set of triangles only: not on their order, their
 //! winding, the order of vertices or the number of threads.
 
+mod cell_store;
 mod clip;
+pub mod count;
+pub mod count_ref;
+pub mod cover;
+pub mod cover_ref;
 mod coverage;
 mod fragments;
 mod input;
 mod joints;
+mod materials;
+pub mod merge;
+pub mod merge_ref;
 mod payload;
 mod plane;
 mod pyramid;
+pub mod shade;
+pub mod shade_ref;
 mod surface;
 mod triangle;
 
 use glam::{DVec3, IVec3};
 use rayon::prelude::*;
 
+pub use cell_store::{CellStore, CellStoreBuffers};
 pub use coverage::CellBox;
 pub(crate) use input::textures_read;
 pub use input::{VoxelizeError, VoxelizeInput, VoxelizePart, work_units};
+pub use materials::SurfaceMaterials;
 pub use pyramid::TexturePyramids;
 
 use crate::data::voxel_cache::{MAX_COORDINATE_CELLS, VoxelCache, VoxelizeReport};

@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use glam::DVec2;
 
 use crate::color::linear_from_gamma;
+use crate::data::albedo::pack_color;
 use crate::data::texels::Texels;
 use crate::scene::{Texture, TextureRef, Wrap};
 use crate::stages::textures::halve_ref::box_filtered;
@@ -32,6 +33,13 @@ struct Pyramids {
 struct Level {
     size: [usize; 2],
     texels: Vec<[u16; 4]>,
+}
+
+/// Levels of a texture, texels coded as voxels' colours are.
+pub(super) struct CodedLevels {
+    pub size: [usize; 2],
+    pub first_level: usize,
+    pub levels: Vec<([usize; 2], Vec<u32>)>,
 }
 
 impl TexturePyramids {
@@ -65,6 +73,30 @@ impl TexturePyramids {
             Some(pyramids) => pyramids.sample_cut(least, uv, uv_area, is_there),
             None => [1.0, 1.0, 1.0, f64::from(u8::from(is_there(1.0)))],
         }
+    }
+
+    /// Every level with no more than `most` texels along a side, and at least the last, for the GPU; `None` where there
+    /// is no such texture. Level 0 of a mask is the file's image: its alpha is cut where it is read.
+    pub(super) fn coded(&self, texture: usize, texels: Texels, most: usize) -> Option<CodedLevels> {
+        let pyramids = self.textures.get(texture)?;
+        let size = size_of(&pyramids.texture);
+        if size.contains(&0) {
+            return None;
+        }
+        let levels = pyramids.levels(texels);
+        let size_at = |level: usize| if level == 0 { size } else { levels[level - 1].size };
+        let first_level = (0..levels.len()).find(|&level| size_at(level).into_iter().all(|side| side <= most));
+        let first_level = first_level.unwrap_or(levels.len());
+        let finest = if matches!(texels, Texels::Cut { .. }) { Texels::Covering } else { texels };
+        let coded = |level: usize| {
+            let [width, height] = size_at(level);
+            let texel = |i: usize| match level {
+                0 => base_texel(&pyramids.texture, finest, i % width, i / width),
+                _ => levels[level - 1].texel(i % width, i / width),
+            };
+            ([width, height], (0..width * height).map(|i| pack_color(texel(i))).collect())
+        };
+        Some(CodedLevels { size, first_level, levels: (first_level..=levels.len()).map(coded).collect() })
     }
 
     /// True where a slot is empty or its texture exists and has texels.

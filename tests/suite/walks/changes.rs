@@ -4,7 +4,8 @@ use glam::DVec3;
 use octolume::scene::OrbitCamera;
 use octolume::settings::lighting::{AddedLight, LightEdit, Opacity, Shadows, SunShines};
 use octolume::settings::{
-    AlphaRule, ColorBy, Filter, Lookup, Sampling, Settings, SliceAxis, SliceValue, ToneCurve, View, VoxelAnchor,
+    AlphaRule, ColorBy, Discretizer, Filter, Lookup, Sampling, Settings, SliceAxis, SliceValue, ToneCurve, View,
+    VoxelAnchor, VoxelizerCells,
 };
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
@@ -39,7 +40,7 @@ const LOOKUPS: [Lookup; 3] = [Lookup::Ranks, Lookup::BlockPointers, Lookup::Node
 const SAMPLINGS: [Sampling; 3] = [Sampling::Nearest, Sampling::Trilinear, Sampling::Quadrilinear];
 
 /// What everybody does most comes more than once.
-const CHANGES: [Change; 48] = [
+const CHANGES: [Change; 50] = [
     |s, r| s.method.look.view = one_of(r, &VIEWS),
     |s, r| s.method.look.view = one_of(r, &VIEWS),
     |s, r| s.method.look.color = one_of(r, &COLORS),
@@ -71,6 +72,8 @@ const CHANGES: [Change; 48] = [
     |s, r| s.method.discretization.filter = one_of(r, &[Filter::Nearest, Filter::Split]),
     |s, r| s.method.discretization.dense_level = one_of(r, &[None, Some(2), Some(4), Some(6)]),
     |s, r| s.method.discretization.anchor = one_of(r, &[VoxelAnchor::Centre, VoxelAnchor::Corner]),
+    |s, r| s.method.discretization.discretizer = one_of(r, &[Discretizer::Transform, Discretizer::Voxelize]),
+    |s, r| s.method.discretization.cells = one_of(r, &[VoxelizerCells::Sparse, VoxelizerCells::Dense]),
     |s, r| s.shot.motion.time_secs = between(r, 0.0, 1.2),
     |s, r| s.shot.motion.time_secs = between(r, 0.0, 1.2),
     |s, r| s.shot.motion.clip = one_of(r, &[None, Some("clip"), Some("")]).map(str::to_owned),

@@ -1,0 +1,196 @@
+//! Both discretizers on one pose: what each takes to bring voxels into the grid, what the octree behind it takes, and the
+//! cells it misses. In turns, so that what slows the machine slows all alike.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::copy;
+use crate::engine::Engine;
+use crate::experiment::board::{Findings, Share};
+use crate::experiment::lab::{Lab, NO_PICTURE, pause};
+use crate::experiment::rows::{DiscretizerReport, DiscretizerRow};
+use crate::experiment::{Experiment, ExperimentError, Subject};
+use crate::gpu::Gpu;
+use crate::plan::Pass;
+use crate::prepare::{Prepared, PreparedObject};
+use crate::settings::{Discretization, Discretizer, Filter, Settings, View, VoxelizerCells};
+use crate::spread::Spread;
+
+/// What is measured beside each other. Voxels of the voxelizer lie wholly in their cells: filters do not change them.
+const VARIANTS: [(Discretizer, VoxelizerCells, Filter); 4] = [
+    (Discretizer::Transform, VoxelizerCells::Sparse, Filter::Split),
+    (Discretizer::Transform, VoxelizerCells::Sparse, Filter::Nearest),
+    (Discretizer::Voxelize, VoxelizerCells::Sparse, Filter::Nearest),
+    (Discretizer::Voxelize, VoxelizerCells::Dense, Filter::Nearest),
+];
+
+const DISCRETIZING: [Pass; 6] = [
+    Pass::TransformRigid,
+    Pass::TransformSkinned,
+    Pass::CountColumns,
+    Pass::ClearCells,
+    Pass::VoxelizeTriangles,
+    Pass::MergeFragments,
+];
+const BUILDING: [Pass; 9] = [
+    Pass::MarkLeaves,
+    Pass::ReduceMasks,
+    Pass::ScanBlocks,
+    Pass::CountNodes,
+    Pass::EmitNodes,
+    Pass::SortVoxels,
+    Pass::GatherNearest,
+    Pass::GatherSplit,
+    Pass::AverageNodes,
+];
+
+/// One way, and what its frames took.
+struct Variant {
+    settings: Settings,
+    discretize_ms: Vec<f64>,
+    build_ms: Vec<f64>,
+    both_ms: Vec<f64>,
+    clock_ms: Vec<f64>,
+    /// Why it is not measured.
+    missing: Option<String>,
+}
+
+/// Both discretizers on the subject's pose. `warmup`: frames of each that are not measured.
+pub fn discretizers(gpu: &Arc<Gpu>, mut subject: Subject, warmup: u32) -> Experiment {
+    let look = &mut subject.settings.method.look;
+    (look.view, look.accuracy) = (View::Voxels, false);
+    subject.settings.shot.size_px = None;
+    let report = DiscretizerReport {
+        scene: subject.prepared.scene.name.clone(),
+        time_secs: subject.settings.shot.motion.time_secs,
+        turn_degrees: subject.settings.shot.motion.turn_degrees,
+        grid: subject.settings.method.discretization.grid,
+        triangles: drawn_triangles(&subject.prepared),
+        warmup,
+        runs: subject.runs,
+        exact: 0,
+        copy: None,
+        rows: Vec::new(),
+    };
+    Experiment::begin(gpu, ("discretizers", subject), report, async move |mut lab, report| {
+        lab.warmup = warmup;
+        measure(lab, &report).await
+    })
+}
+
+/// Of every object, whoever shares its mesh.
+fn drawn_triangles(prepared: &Prepared) -> u64 {
+    let of = |object: &PreparedObject| prepared.scene.meshes[object.object.mesh].triangle_count() as u64;
+    prepared.objects.iter().map(of).sum()
+}
+
+async fn measure(mut lab: Lab, report: &Findings<DiscretizerReport>) -> Result<(), ExperimentError> {
+    let frames = (lab.warmup + lab.runs) as f32;
+    let [copying, voxelizing, timing, comparing] = Share::WHOLE.split([1.0, 2.0, 2.0 * frames, 4.0]);
+    let copied = copy::measure(&lab, copying).await?;
+    report.borrow_mut().copy = Some(copied);
+    lab.take_exact(&lab.settings.clone(), voxelizing).await?;
+    let mut variants = VARIANTS.map(|variant| Variant::new(&lab.settings, variant));
+    for run in 0..lab.warmup + lab.runs {
+        let of_run = timing.part(run as usize, (lab.warmup + lab.runs) as usize);
+        for (number, variant) in variants.iter_mut().enumerate() {
+            let share = of_run.part(number, VARIANTS.len());
+            lab.say(share, format!("discretizing: {} of {}", run + 1, lab.warmup + lab.runs));
+            let counts = run >= lab.warmup;
+            variant.run(&mut lab, share, counts).await?;
+        }
+    }
+    let mut first_ms = None;
+    for (number, variant) in variants.iter_mut().enumerate() {
+        let row = variant.row(&mut lab, (comparing.part(number, VARIANTS.len()), first_ms)).await?;
+        first_ms = first_ms.or(row.rebuild.map(|rebuild| rebuild.median_ms));
+        let mut report = report.borrow_mut();
+        report.exact = lab.engine.accuracy().and_then(|accuracy| accuracy.exact_cells).unwrap_or(report.exact);
+        report.rows.push(row);
+    }
+    Ok(())
+}
+
+impl Variant {
+    fn new(settings: &Settings, (discretizer, cells, filter): (Discretizer, VoxelizerCells, Filter)) -> Self {
+        let mut settings = settings.clone();
+        let discretization = &mut settings.method.discretization;
+        (discretization.discretizer, discretization.cells, discretization.filter) = (discretizer, cells, filter);
+        Self {
+            settings,
+            discretize_ms: Vec::new(),
+            build_ms: Vec::new(),
+            both_ms: Vec::new(),
+            clock_ms: Vec::new(),
+            missing: None,
+        }
+    }
+
+    fn name(&self) -> String {
+        let Discretization { discretizer, cells, filter, .. } = self.settings.method.discretization;
+        DiscretizerRow::name_of(discretizer, (discretizer == Discretizer::Voxelize).then_some(cells), filter)
+    }
+
+    /// A frame from the pose on. What does not fit the adapter is not tried again.
+    async fn run(&mut self, lab: &mut Lab, share: Share, counts: bool) -> Result<(), ExperimentError> {
+        if self.missing.is_some() {
+            return Ok(());
+        }
+        lab.engine.invalidate();
+        let started = Instant::now();
+        match lab.run(&self.settings, NO_PICTURE, share).await {
+            Err(error) if error.is_of_room() => {
+                lab.miss(&self.name(), &error);
+                self.missing = Some(error.to_string());
+            }
+            outcome => outcome?,
+        }
+        if counts && self.missing.is_none() {
+            self.clock_ms.push(started.elapsed().as_secs_f64() * 1e3);
+            let [discretize, build] = [&DISCRETIZING[..], &BUILDING].map(|passes| took(&lab.engine, passes));
+            self.discretize_ms.push(discretize);
+            self.build_ms.push(build);
+            self.both_ms.push(discretize + build);
+        }
+        pause().await;
+        Ok(())
+    }
+
+    /// With the cells that are missed, from a frame that is not timed. `first_ms`: what the first variant takes.
+    async fn row(
+        &mut self,
+        lab: &mut Lab,
+        (share, first_ms): (Share, Option<f64>),
+    ) -> Result<DiscretizerRow, ExperimentError> {
+        let discretization = self.settings.method.discretization;
+        let rebuild = Spread::of(&self.both_ms);
+        let mut row = DiscretizerRow {
+            discretizer: discretization.discretizer,
+            cells: (discretization.discretizer == Discretizer::Voxelize).then_some(discretization.cells),
+            filter: discretization.filter,
+            discretize: Spread::of(&self.discretize_ms),
+            build: Spread::of(&self.build_ms),
+            rebuild,
+            clock: Spread::of(&self.clock_ms),
+            ratio: rebuild.zip(first_ms).map(|(rebuild, first)| rebuild.median_ms / first),
+            found: None,
+            missing: self.missing.take(),
+        };
+        if row.missing.is_none() {
+            lab.say(share, "comparing with exact voxels");
+            let mut settings = self.settings.clone();
+            settings.method.look.accuracy = true;
+            lab.run(&settings, NO_PICTURE, share).await?;
+            let report = lab.engine.accuracy();
+            row.found = report.and_then(|report| match discretization.filter {
+                Filter::Split => report.split,
+                Filter::Nearest => report.nearest,
+            });
+        }
+        Ok(row)
+    }
+}
+
+fn took(engine: &Engine, passes: &[Pass]) -> f64 {
+    engine.timings().iter().filter(|timing| passes.contains(&timing.pass)).map(|timing| timing.kernel.ms).sum()
+}

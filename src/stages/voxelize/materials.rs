@@ -1,0 +1,80 @@
+//! Materials and textures as the GPU voxelizes with them: every level of a texture that has no more texels along a side
+//! than the grid has cells. A piece of a surface in a cell reads finer ones only where it is a corner of the cell.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::pyramid::{CodedLevels, TexturePyramids};
+use super::shade::{SurfaceMaterial, SurfaceTexture};
+use crate::data::texels::Texels;
+use crate::scene::{Material, Scene, TextureRef};
+
+/// What `voxelize/shade` reads.
+#[derive(Clone, Debug, Default)]
+pub struct SurfaceMaterials {
+    /// The scene's, and the default one.
+    pub materials: Vec<SurfaceMaterial>,
+    pub texels: Vec<u32>,
+}
+
+impl SurfaceMaterials {
+    /// `brightest`: the unit of emission, nits; 0: nothing emits.
+    pub fn new(scene: &Scene, pyramids: &TexturePyramids, (cells, brightest): (u32, f32)) -> Self {
+        let default = Material::default();
+        let materials: Vec<&Material> = scene.materials.iter().chain([&default]).collect();
+        let slots = |material: &Material| {
+            let base = material.base_color_texture.map(|slot| (slot, Texels::of_base_color(material)));
+            [base, material.emissive_texture.map(|slot| (slot, Texels::Opaque))]
+        };
+        let read: BTreeMap<(usize, Texels), ()> = materials
+            .iter()
+            .flat_map(|material| slots(material))
+            .flatten()
+            .map(|(slot, t)| ((slot.texture, t), ()))
+            .collect();
+        let coded: Vec<_> = read
+            .into_par_iter()
+            .filter_map(|((texture, texels), ())| {
+                Some(((texture, texels), pyramids.coded(texture, texels, cells as usize)?))
+            })
+            .collect();
+        let (mut texels, mut placed) = (Vec::new(), BTreeMap::new());
+        for (read, levels) in coded {
+            placed.insert(read, levels.place(&mut texels, read.1));
+        }
+        let texture = |slot: Option<(TextureRef, Texels)>| {
+            let found = slot.and_then(|(slot, read)| Some((slot, placed.get(&(slot.texture, read))?)));
+            found.map_or(SurfaceTexture::default(), |(slot, levels)| {
+                let texture = &scene.textures[slot.texture];
+                SurfaceTexture::new(slot, (texture.wrap, texture.nearest), levels)
+            })
+        };
+        let materials =
+            materials.iter().map(|material| SurfaceMaterial::new(material, brightest, slots(material).map(texture)));
+        // A binding holds at least a word.
+        Self { materials: materials.collect(), texels: if texels.is_empty() { vec![0] } else { texels } }
+    }
+}
+
+impl CodedLevels {
+    /// Appends where each level begins and how large it is, then the texels.
+    fn place(self, words: &mut Vec<u32>, texels: Texels) -> SurfaceTexture {
+        let first_word = words.len();
+        let mut next = first_word + 2 * self.levels.len();
+        for (size, coded) in &self.levels {
+            words.extend([next as u32, size[0] as u32 | (size[1] as u32) << 16]);
+            next += coded.len();
+        }
+        let end_level = (self.first_level + self.levels.len()) as u32;
+        self.levels.into_iter().for_each(|(_, coded)| words.extend(coded));
+        SurfaceTexture {
+            first_word: first_word as u32,
+            size: self.size.map(|side| side as u32),
+            first_level: self.first_level as u32,
+            end_level,
+            is_covering: u32::from(matches!(texels, Texels::Covering | Texels::Cut { .. })),
+            ..SurfaceTexture::default()
+        }
+    }
+}
