@@ -76,6 +76,18 @@ readonly LIT_ROOM=(knight-room.gltf --sun off --add-light point:at=0.5,3.4,1:can
 knight=$(find_scene Knight.glb)
 if [[ -n $knight ]]; then "$FOLDER/knight_room.sh" "$knight" "$made"; fi
 
+for characters in 1 16 64 256; do
+    "$program" make dynamic --characters "$characters" -o "$made/dynamic-$characters.glb"
+done
+
+for scene in courtyard Sponza.gltf Fox.glb; do
+    name=${scene%%.*}
+    measure "discretizers-${name,,}.json" bench "$scene" --discretizers --grid 256 --warmup 1 --runs 7
+done
+for characters in 1 16 64 256; do
+    measure "discretizers-dynamic-$characters.json" bench "dynamic-$characters.glb" --discretizers --grid 256 --warmup 1 \
+        --runs 3
+done
 measure voxels-moving.json accuracy Fox.glb CesiumMan.glb Knight.glb robot.glb mannequiny.glb --grids 128,512
 measure voxels-turned.json accuracy Sponza.gltf --turns 0,10,37 --grids 128,512
 measure shadows.json accuracy courtyard Sponza.gltf --lighting --grids 256 --turns 0,37

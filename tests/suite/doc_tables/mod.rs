@@ -11,6 +11,7 @@
 mod accuracy;
 mod bench;
 mod cones;
+mod discretizers;
 mod forms;
 mod links;
 mod markdown;
@@ -19,6 +20,11 @@ pub mod measured;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+
+use octolume::data::fragments::FRAGMENT_WORDS;
+use octolume::data::light::pack_emission;
+use octolume::data::pages::WORLD_VOXEL_BYTES;
+use octolume::data::voxel_cache::{CacheVoxel, VoxelJoints};
 
 use markdown::Table;
 use measured::Files;
@@ -64,6 +70,7 @@ impl<'a> Marker<'a> {
         let files = Files::read(&self.files);
         let table: Table = match self.name {
             "voxels" => accuracy::voxels(&files),
+            "discretizers" => discretizers::discretizers(&files),
             "shadows" => accuracy::shadows(&files),
             "rebuild" => bench::rebuild(&files),
             "light" => bench::light(&files),
@@ -123,6 +130,19 @@ fn every_measured_file_is_in_a_table() {
     for name in measured::names() {
         assert!(used.contains(name.as_str()), "{name} is in no table");
     }
+}
+
+#[test]
+fn bytes_of_voxels_are_those_of_their_structs() {
+    let page = text(&root().join("docs/discretizers.md"));
+    let rows = [
+        ("a cached voxel", size_of::<CacheVoxel>() as u64),
+        ("its joints, where it is skinned", size_of::<VoxelJoints>() as u64),
+        ("its emission, where its object emits", size_of_val(&pack_emission([1.0; 3], 1.0)) as u64),
+        ("a moved voxel in a page", WORLD_VOXEL_BYTES),
+        ("a part of a triangle in a cell, of the voxelizer", 4 * u64::from(FRAGMENT_WORDS)),
+    ];
+    rows.iter().for_each(|(what, bytes)| assert!(page.contains(&format!("| {what} | {bytes} |")), "{what}: {bytes}"));
 }
 
 #[test]
