@@ -52,7 +52,10 @@ measure() {
     done
     say "$file: octolume $*"
     "$program" "${arguments[@]}" --json >"$made/report"
-    jq --arg command "octolume $*" --argjson cores "$(nproc)" '{$command, $cores, report: .}' "$made/report" >"$made/file"
+    # Where the scene lay is nobody's business; its digest stays.
+    jq --arg command "octolume $*" --argjson cores "$(nproc)" \
+        '(.settings.shot.scene.source | strings) |= (split("/") | last) | {$command, $cores, report: .}' \
+        "$made/report" >"$made/file"
     mv "$made/file" "$FOLDER/$file"
 }
 
