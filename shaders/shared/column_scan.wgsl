@@ -1,8 +1,10 @@
 // Which cells a triangle covers: stages::voxelize::coverage in f32. A triangle is looked at along the axis along which
 // it looks largest, w; what runs through the grid there are columns of cells, (u, v).
 //
-// Differs from the exact predicates where a decision hangs on less than f32 resolves.
+// Differs from the exact predicates where a decision hangs on less than f32 resolves. A kernel declares what
+// shared/triangle_list.wgsl asks for.
 #import constants
+#import shared/triangle_list.wgsl
 
 override CONSERVATIVE: bool = false;
 
@@ -89,6 +91,12 @@ fn column_scan(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, grid_cells: u32) -> Col
     scan.low = vec3<i32>(clamp(least, vec3<f32>(0.0), vec3<f32>(size)));
     scan.high = vec3<i32>(clamp(most, vec3<f32>(-1.0), vec3<f32>(size - 1.0)));
     return scan;
+}
+
+// Of a posed triangle of the batch.
+fn posed_scan(triangle: u32) -> ColumnScan {
+    let owner = entered_draw(triangle);
+    return column_scan(posed_corner(owner, triangle, 0u), posed_corner(owner, triangle, 1u), posed_corner(owner, triangle, 2u), list.grid_cells);
 }
 
 fn column_count(scan: ColumnScan) -> u32 {

@@ -3,24 +3,24 @@
 // coded as voxels' colours are; where alpha counts, colours are multiplied by it.
 #import constants
 #import shared/albedo.wgsl
+#import shared/posed_mesh.wgsl
 
 struct SurfaceTexture {
-    u: vec3<f32>,
-    // 0 or 1: which TEXCOORD_n.
-    tex_coord: u32,
-    v: vec3<f32>,
-    // Where the list of levels begins.
-    first_word: u32,
+    // Not filled: white.
+    slot: TextureSlot,
     // Of the file's image.
     size: vec2<u32>,
     // The finest level that is there: others have more texels than the grid has cells.
     first_level: u32,
-    // One behind the last; 0: there is no texture, which is white.
+    // One behind the last.
     end_level: u32,
     // WRAP_*.
     wrap: vec2<u32>,
     nearest: u32,
     is_covering: u32,
+    // Where the list of levels begins.
+    first_word: u32,
+    pad: array<u32, 3>,
 }
 
 struct TextureLevel {
@@ -98,7 +98,7 @@ fn straight(surface: SurfaceTexture, color: vec4<f32>) -> vec4<f32> {
 
 // Linear, averaged over about `uv_area` of the unit square.
 fn sample_surface(surface: SurfaceTexture, uv: vec2<f32>, uv_area: f32) -> vec4<f32> {
-    if surface.end_level == 0u {
+    if surface.slot.is_filled == 0u {
         return vec4<f32>(1.0);
     }
     return straight(surface, sample_between(surface, level_for(surface, uv_area), uv));
@@ -106,7 +106,7 @@ fn sample_surface(surface: SurfaceTexture, uv: vec2<f32>, uv_area: f32) -> vec4<
 
 // The same of a mask that is `factor` times its texture's alpha, whose alpha then is the share that is there.
 fn sample_cut(surface: SurfaceTexture, uv: vec2<f32>, uv_area: f32, factor: f32, cutoff: f32) -> vec4<f32> {
-    if surface.end_level == 0u {
+    if surface.slot.is_filled == 0u {
         return vec4<f32>(1.0);
     }
     let level = level_for(surface, uv_area);

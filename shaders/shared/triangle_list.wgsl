@@ -22,7 +22,7 @@ struct TriangleList {
     grid_cells: u32,
 }
 
-// Of a triangle of the batch.
+// The draw of a triangle of the batch.
 fn draw_of(triangle: u32) -> u32 {
     var low = list.first_draw;
     var high = list.end_draw;
@@ -37,11 +37,13 @@ fn draw_of(triangle: u32) -> u32 {
     return low;
 }
 
-// What shared/posed_mesh.wgsl reads of a draw.
-fn enter_draw(owner: TriangleDraw) {
+// The same, from here on read by shared/posed_mesh.wgsl.
+fn entered_draw(triangle: u32) -> TriangleDraw {
+    let owner = draws[draw_of(triangle)];
     draw.first_index = owner.first_index;
     draw.first_vertex = owner.first_vertex;
     draw.first_matrix = owner.first_matrix;
+    return owner;
 }
 
 fn vertex_matrix(owner: TriangleDraw, vertex: u32) -> MeshMatrix {

@@ -1,7 +1,6 @@
 // How many columns of cells each triangle of a batch may cover: those of its bounds along its dominant axis, inside the
 // grid. In: posed triangles. Out: a number a triangle, and their sum in two words.
 #import shared/threads.wgsl
-#import shared/triangle_list.wgsl
 #import shared/column_scan.wgsl
 #import shared/counter.wgsl
 
@@ -25,9 +24,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         return;
     }
     let triangle = list.first_triangle + thread;
-    let owner = draws[draw_of(triangle)];
-    enter_draw(owner);
-    let scan = column_scan(posed_corner(owner, triangle, 0u), posed_corner(owner, triangle, 1u), posed_corner(owner, triangle, 2u), list.grid_cells);
+    let scan = posed_scan(triangle);
     let count = column_count(scan);
     columns[triangle] = count;
     if count != 0u {

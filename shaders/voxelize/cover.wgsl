@@ -2,7 +2,6 @@
 // lies in each: its area and its middle (Sutherland & Hodgman). In: posed triangles, their first columns. Out:
 // fragments, each linked to the one before in its bucket. Their order differs between runs; no sum of them does.
 #import shared/threads.wgsl
-#import shared/triangle_list.wgsl
 #import shared/column_scan.wgsl
 #import shared/fragments.wgsl
 #import shared/morton.wgsl
@@ -151,9 +150,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
         return;
     }
     let triangle = triangle_of(column);
-    let owner = draws[draw_of(triangle)];
-    enter_draw(owner);
-    let scan = column_scan(posed_corner(owner, triangle, 0u), posed_corner(owner, triangle, 1u), posed_corner(owner, triangle, 2u), list.grid_cells);
+    let scan = posed_scan(triangle);
     let local = column - starts[triangle];
     let width = u32(scan.high.x - scan.low.x + 1);
     let place = scan.low.xy + vec2<i32>(vec2<u32>(local % width, local / width));

@@ -42,12 +42,10 @@ struct SurfacePiece {
 }
 
 // Texture coordinates of the middle, and what the piece covers of the unit square.
-fn footprint(piece: SurfacePiece, owner: SurfaceTexture) -> vec3<f32> {
+fn footprint(piece: SurfacePiece, slot: TextureSlot) -> vec3<f32> {
     var uv = array<vec2<f32>, 3>();
     for (var i = 0u; i < 3u; i += 1u) {
-        let tex_coords = vertices[piece.vertices[i]].tex_coords;
-        let at = vec3<f32>(select(tex_coords.xy, tex_coords.zw, owner.tex_coord == 1u), 1.0);
-        uv[i] = vec2<f32>(dot(owner.u, at), dot(owner.v, at));
+        uv[i] = slot_uv(slot, vertices[piece.vertices[i]].tex_coords);
     }
     let middle = piece.weights.x * uv[0] + piece.weights.y * uv[1] + piece.weights.z * uv[2];
     let a = uv[1] - uv[0];
@@ -62,7 +60,7 @@ fn base_color_of(piece: SurfacePiece, material: SurfaceMaterial) -> vec4<f32> {
         vertex_color += piece.weights[i] * unpack_color(vertices[piece.vertices[i]].color);
     }
     let factor = material.base_color * vertex_color;
-    let at = footprint(piece, material.base_color_texture);
+    let at = footprint(piece, material.base_color_texture.slot);
     if material.alpha_mode == ALPHA_MASK {
         let texel = sample_cut(material.base_color_texture, at.xy, at.z, factor.a, material.cutoff);
         // Shares are those without colours of vertices; what these cut out altogether is not there.
@@ -73,7 +71,7 @@ fn base_color_of(piece: SurfacePiece, material: SurfaceMaterial) -> vec4<f32> {
 }
 
 fn emission_of(piece: SurfacePiece, material: SurfaceMaterial) -> vec3<f32> {
-    let at = footprint(piece, material.emissive_texture);
+    let at = footprint(piece, material.emissive_texture.slot);
     return material.emissive * sample_surface(material.emissive_texture, at.xy, at.z).rgb;
 }
 
@@ -110,8 +108,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) g
     if (fragments[start] & UNSHADED) == 0u || !is_of_batch {
         return;
     }
-    let owner = draws[draw_of(triangle)];
-    enter_draw(owner);
+    let owner = entered_draw(triangle);
     let first = 3u * (triangle - owner.first_triangle);
     let second = unpack2x16unorm(fragments[start + 4u]);
     var piece = SurfacePiece();

@@ -64,8 +64,7 @@ impl Measured {
         let mut settings = settings.clone();
         settings.method.look = match measure {
             Measure::Kernels => Look { view: View::Voxels, accuracy: false, ..settings.method.look },
-            Measure::Surfaces | Measure::Light | Measure::Voxels | Measure::Shadows => Look::default(),
-            Measure::Discretizers => Look::default(),
+            _ => Look::default(),
         };
         if measure == Measure::Discretizers {
             // Each is measured, whichever is shown.

@@ -164,16 +164,8 @@ impl Engine {
 
     /// What moving and building took for a method.
     pub(super) fn build_ms(&self, keys: &Keys) -> f64 {
-        const BUILD: [Part; 7] = [
-            Part::RigidVoxels,
-            Part::SkinnedVoxels,
-            Part::Columns,
-            Part::PosedVoxels,
-            Part::Masks,
-            Part::Topology,
-            Part::Payload,
-        ];
-        let parts = BUILD.into_iter().filter_map(|part| Some(self.parts.timings(part, keys.get(part)?)));
+        let build = Part::DISCRETIZED.into_iter().chain(Part::BUILT);
+        let parts = build.filter_map(|part| Some(self.parts.timings(part, keys.get(part)?)));
         parts.flatten().map(|timing| timing.kernel.ms).sum()
     }
 }

@@ -63,6 +63,15 @@ pub struct AccuracyReport {
     pub exact_cells: Option<u64>,
 }
 
+impl AccuracyReport {
+    pub fn of(&self, filter: Filter) -> Option<FilterReport> {
+        match filter {
+            Filter::Nearest => self.nearest,
+            Filter::Split => self.split,
+        }
+    }
+}
+
 /// All of it, taken down when the frame is finished.
 #[derive(Clone, Debug)]
 pub struct Results {

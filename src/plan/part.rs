@@ -90,6 +90,10 @@ impl Part {
         Self::Picture,
         Self::Comparison,
     ];
+    /// World voxels, by either discretizer.
+    pub const DISCRETIZED: [Self; 4] = [Self::RigidVoxels, Self::SkinnedVoxels, Self::Columns, Self::PosedVoxels];
+    /// The octree behind them.
+    pub const BUILT: [Self; 3] = [Self::Masks, Self::Topology, Self::Payload];
     /// Made of what the camera sees: other ones for another camera, and dearer the more pixels there are.
     pub const SEEN: [Self; 8] = [
         Self::SurfaceImage,

@@ -38,10 +38,7 @@ fn moved(scene: &Scene, settings: &Settings) -> (u64, u64, u64) {
     engine.request(&settings, [16, 16]).expect("a request");
     engine.run_to_end().expect("a frame");
     let report = engine.accuracy().expect("measured");
-    let of_filter = match settings.method.discretization.filter {
-        Filter::Split => report.split,
-        Filter::Nearest => report.nearest,
-    };
+    let of_filter = report.of(settings.method.discretization.filter);
     let of_filter = of_filter.expect("measured");
     (of_filter.leaves, of_filter.holes.expect("compared"), of_filter.spill.expect("compared"))
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use egui::{ComboBox, DragValue, Role, Slider, Ui, WidgetInfo};
 
-use super::{choice, control};
+use super::{choice, control, unfolding};
 use crate::app::command::Command;
 use crate::settings::{
     Discretization, Discretizer, FitTo, ShotSettings, Visibility, VoxelAnchor, VoxelizationMode, VoxelizerCells,
@@ -157,11 +157,5 @@ fn discretizer_ui(ui: &mut Ui, wanted: &mut Discretization) {
 
 /// One of few, called what the label says.
 fn combo<T: Copy + PartialEq>(ui: &mut Ui, label: &str, width: f32, value: &mut T, all: &[(T, &str, &str)]) {
-    let shown = all.iter().find(|one| one.0 == *value).map_or("", |one| one.1);
-    let combo = ComboBox::from_id_salt(label).width(width).selected_text(shown).show_ui(ui, |ui| {
-        for (one, name, tip) in all {
-            ui.selectable_value(value, *one, *name).on_hover_text(*tip);
-        }
-    });
-    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, label));
+    unfolding(ui, label, width, value, all).widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, label));
 }

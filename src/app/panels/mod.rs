@@ -125,16 +125,25 @@ pub fn choice<T: PartialEq + Copy>(
 
 /// One of many values as a list that unfolds.
 pub fn list<T: PartialEq + Copy>(ui: &mut Ui, name: &str, tip: &str, value: &mut T, options: &[(T, &str, &str)]) {
+    control(ui, name, tip, |ui| unfolding(ui, name, 120.0, value, options));
+}
+
+/// The list of a [`list`] alone.
+pub fn unfolding<T: PartialEq + Copy>(
+    ui: &mut Ui,
+    name: &str,
+    width: f32,
+    value: &mut T,
+    options: &[(T, &str, &str)],
+) -> Response {
     let shown = options.iter().find(|option| option.0 == *value).map_or("", |option| option.1);
-    control(ui, name, tip, |ui| {
-        let list =
-            ComboBox::from_id_salt(name).width(120.0).height(LIST_HEIGHT).selected_text(shown).show_ui(ui, |ui| {
-                for &(option, name, tip) in options {
-                    ui.selectable_value(value, option, name).on_hover_text(tip);
-                }
-            });
-        list.response
+    let list = ComboBox::from_id_salt(name).width(width).height(LIST_HEIGHT).selected_text(shown);
+    let list = list.show_ui(ui, |ui| {
+        for &(option, name, tip) in options {
+            ui.selectable_value(value, option, name).on_hover_text(tip);
+        }
     });
+    list.response
 }
 
 /// Controls that cannot be used for a reason, which their tip tells.

@@ -12,6 +12,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::gpu::{Constant, Mirror, constants, mirror};
 
+pub use params::alpha_of;
 pub use posed::PosedMesh;
 pub use scene::{MeshScene, Textures};
 pub use texture::RecordLevels;
@@ -49,7 +50,7 @@ pub struct VertexJoints {
 
 /// Mirror of `TextureSlot` in shaders/shared/posed_mesh.wgsl.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct TextureSlot {
     pub u: [f32; 3],
     pub tex_coord: u32,

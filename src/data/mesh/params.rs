@@ -1,7 +1,6 @@
 //! What a draw says about its material, in the order of the uniform.
 
 use super::scene::{MeshScene, Place};
-use super::texture::MeshTexture;
 use super::{ALPHA_BLEND, ALPHA_MASK, ALPHA_OPAQUE, DrawParams, TextureSlot};
 use crate::data::texels::Texels;
 use crate::scene::{AlphaMode, Material, Primitive, TextureRef};
@@ -12,12 +11,8 @@ pub(super) fn draw_params(
     material: &Material,
     (object, first_matrix): (u32, u32),
 ) -> DrawParams {
-    let (alpha_mode, cutoff) = match material.alpha_mode {
-        AlphaMode::Opaque => (ALPHA_OPAQUE, 0.0),
-        AlphaMode::Mask { cutoff } => (ALPHA_MASK, cutoff),
-        AlphaMode::Blend => (ALPHA_BLEND, 0.0),
-    };
-    let slot = |slot, texels| texture_slot(slot, mesh.texture(slot, texels));
+    let (alpha_mode, cutoff) = alpha_of(material);
+    let slot = |slot, texels| TextureSlot::new(slot, mesh.texture(slot, texels).is_some());
     DrawParams {
         base_color: material.base_color,
         first_index: place.first_index,
@@ -41,13 +36,25 @@ pub(super) fn draw_params(
     }
 }
 
-fn texture_slot(slot: Option<TextureRef>, texture: Option<&MeshTexture>) -> TextureSlot {
-    let slot = slot.unwrap_or(TextureRef::new(0, 0));
-    let (matrix, shift) = (slot.uv_from_tex_coord.matrix2, slot.uv_from_tex_coord.translation);
-    TextureSlot {
-        u: [matrix.x_axis.x, matrix.y_axis.x, shift.x],
-        tex_coord: slot.tex_coord as u32,
-        v: [matrix.x_axis.y, matrix.y_axis.y, shift.y],
-        is_filled: u32::from(texture.is_some()),
+/// `ALPHA_*`, and what a mask cuts off.
+pub fn alpha_of(material: &Material) -> (u32, f32) {
+    match material.alpha_mode {
+        AlphaMode::Opaque => (ALPHA_OPAQUE, 0.0),
+        AlphaMode::Mask { cutoff } => (ALPHA_MASK, cutoff),
+        AlphaMode::Blend => (ALPHA_BLEND, 0.0),
+    }
+}
+
+impl TextureSlot {
+    /// `is_filled`: there is a texture to read.
+    pub fn new(slot: Option<TextureRef>, is_filled: bool) -> Self {
+        let slot = slot.unwrap_or(TextureRef::new(0, 0));
+        let (matrix, shift) = (slot.uv_from_tex_coord.matrix2, slot.uv_from_tex_coord.translation);
+        Self {
+            u: [matrix.x_axis.x, matrix.y_axis.x, shift.x],
+            tex_coord: slot.tex_coord as u32,
+            v: [matrix.x_axis.y, matrix.y_axis.y, shift.y],
+            is_filled: u32::from(is_filled),
+        }
     }
 }

@@ -14,7 +14,7 @@ use crate::data::matrix::Matrix3x4;
 use crate::data::octree::Slot;
 use crate::data::texels::Texels;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, PassBuilder, RasterKernel};
-use crate::scene::{Motion, Object, Pose, Primitive};
+use crate::scene::{Motion, Pose, Primitive};
 use crate::settings::Hidden;
 
 /// What is uploaded of a scene, as a pose has it. Objects whose matrices are not finite are left out.
@@ -23,10 +23,22 @@ pub struct PosedMesh<'a> {
     pub(super) mesh: &'a MeshScene,
     pub(super) matrices: GpuBuffer,
     /// By object; `None` where it is hidden, or its matrix not finite.
-    pub(super) first: Vec<Option<FirstMatrix>>,
+    first: Vec<Option<FirstMatrix>>,
 }
 
-/// One primitive of one object.
+/// One primitive of one object: where it lies, and what moves it.
+pub(super) struct Shown<'a> {
+    /// Of the object.
+    pub number: u32,
+    pub primitive: &'a Primitive,
+    pub place: &'a Place,
+    pub batch: &'a Batch,
+    /// Where it is skinned.
+    pub joints: Option<&'a GpuBuffer>,
+    pub first_matrix: u32,
+}
+
+/// The same, and its material.
 #[derive(Debug)]
 pub struct PosedDraw<'a> {
     params: DrawParams,
@@ -57,28 +69,32 @@ impl<'a> PosedMesh<'a> {
     }
 
     pub fn draws(&self) -> impl Iterator<Item = PosedDraw<'_>> {
-        let objects = self.mesh.objects.iter().zip(&self.first);
+        self.shown().filter_map(|shown| self.draw(shown))
+    }
+
+    /// Every primitive that is uploaded, of every object that is not hidden.
+    pub(super) fn shown(&self) -> impl Iterator<Item = Shown<'_>> {
+        let mesh = self.mesh;
+        let objects = mesh.objects.iter().zip(&self.first);
         let moved = objects.filter_map(|((number, object), first)| Some((*number, object, (*first)?)));
         moved.flat_map(move |(number, object, first)| {
-            let primitives = self.mesh.scene.meshes[object.mesh].primitives.iter().zip(&self.mesh.places[object.mesh]);
-            primitives
-                .filter_map(move |(primitive, place)| self.draw(number, object, first, primitive, place.as_ref()?))
+            let primitives = mesh.scene.meshes[object.mesh].primitives.iter().zip(&mesh.places[object.mesh]);
+            primitives.filter_map(move |(primitive, place)| {
+                let place = place.as_ref()?;
+                let batch = mesh.batches.get(place.batch)?;
+                // A skinned object's primitive without joints follows its node, as in voxelization.
+                let is_skinned = matches!(object.motion, Motion::Skinned { .. }) && !primitive.joints.is_empty();
+                let joints = batch.joints.as_ref().filter(|_| is_skinned);
+                let first_matrix = if joints.is_some() { first.joints } else { first.node };
+                Some(Shown { number, primitive, place, batch, joints, first_matrix })
+            })
         })
     }
 
-    fn draw<'b>(
-        &'b self,
-        number: u32,
-        object: &Object,
-        first: FirstMatrix,
-        primitive: &Primitive,
-        place: &'b Place,
-    ) -> Option<PosedDraw<'b>> {
+    fn draw<'b>(&'b self, shown: Shown<'b>) -> Option<PosedDraw<'b>> {
         let mesh = self.mesh;
+        let Shown { number, primitive, place, batch, joints, first_matrix } = shown;
         let material = mesh.scene.material_of(primitive);
-        let batch = mesh.batches.get(place.batch)?;
-        let joints = batch.joints.as_ref().filter(|_| mesh.is_skinned(object, primitive, place));
-        let first_matrix = if joints.is_some() { first.joints } else { first.node };
         // Without an image white stands in: all it says is multiplied, and the normal map asks first.
         let white = mesh.white.as_ref()?;
         let texture = |slot, texels| mesh.texture(slot, texels).unwrap_or(white);
@@ -134,9 +150,9 @@ impl PosedDraw<'_> {
 
 /// Where an object's matrices begin: its node's, and its skin's if it has one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FirstMatrix {
-    pub node: u32,
-    pub joints: u32,
+struct FirstMatrix {
+    node: u32,
+    joints: u32,
 }
 
 struct Matrices {

@@ -9,7 +9,7 @@ use super::texture::{self, MeshTexture, RecordLevels};
 use super::vertex::{mesh_vertex, vertex_joints};
 use crate::data::texels::Texels;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Job, JobState, Recorder};
-use crate::scene::{Motion, Object, Primitive, Scene, TextureRef};
+use crate::scene::{Motion, Object, Scene, TextureRef};
 use crate::settings::Hidden;
 
 /// Vertices of a batch, unless one primitive has more: 24 MiB, uploaded in one go.
@@ -164,12 +164,6 @@ impl MeshScene {
         waiting.extend(batches(&self.scene, skinned, true, is_missing));
         waiting.extend(batches(&self.scene, rigid, false, is_missing));
         waiting
-    }
-
-    /// A skinned object's primitive without joints follows its node, as in voxelization.
-    pub(super) fn is_skinned(&self, object: &Object, primitive: &Primitive, place: &Place) -> bool {
-        let has_joints = self.batches.get(place.batch).is_some_and(|batch| batch.joints.is_some());
-        matches!(object.motion, Motion::Skinned { .. }) && !primitive.joints.is_empty() && has_joints
     }
 
     /// `None` where the slot is empty, its image has no texels, or it is not uploaded.

@@ -62,7 +62,6 @@ impl PosedVoxels {
         let parts = self.parts.ensure(gpu, "parts", size_of_val(&record) as u64)?;
         gpu.write(&parts, 0, bytemuck::bytes_of(&record))?;
         let work_hints = self.work_hints.ensure(gpu, "work hints", 4 * u64::from(hints + threads))?;
-        gpu.write(&work_hints, 0, &vec![0; 4 * hints as usize])?;
         let bytes = WORLD_VOXEL_BYTES * u64::from(threads);
         let world_voxels = self.world_voxels.ensure(gpu, "posed voxels", bytes)?;
         Ok(ListedVoxels { work_items, work_hints, parts, world_voxels, threads })
@@ -80,7 +79,7 @@ impl PosedVoxels {
 
 /// That a buffer holds.
 fn most_fragments(gpu: &Gpu, emits: bool) -> u32 {
-    (gpu.limits.max_storage_buffer_binding_size / CellStore::fragment_bytes(emits)).min(u32::MAX.into()) as u32
+    (gpu.limits.max_storage_buffer_binding_size / CellStore::bytes_of_fragment(emits)).min(u32::MAX.into()) as u32
 }
 
 impl Made for PosedVoxels {

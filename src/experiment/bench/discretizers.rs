@@ -5,15 +5,15 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::copy;
-use crate::engine::Engine;
+use crate::engine::{Engine, PassTiming};
 use crate::experiment::board::{Findings, Share};
 use crate::experiment::lab::{Lab, NO_PICTURE, pause};
 use crate::experiment::rows::{DiscretizerReport, DiscretizerRow};
 use crate::experiment::{Experiment, ExperimentError, Subject};
 use crate::gpu::Gpu;
-use crate::plan::Pass;
+use crate::plan::Part;
 use crate::prepare::{Prepared, PreparedObject};
-use crate::settings::{Discretization, Discretizer, Filter, Settings, View, VoxelizerCells};
+use crate::settings::{Discretizer, Filter, Settings, View, VoxelizerCells};
 use crate::spread::Spread;
 
 /// What is measured beside each other. Voxels of the voxelizer lie wholly in their cells: filters do not change them.
@@ -24,35 +24,14 @@ const VARIANTS: [(Discretizer, VoxelizerCells, Filter); 4] = [
     (Discretizer::Voxelize, VoxelizerCells::Dense, Filter::Nearest),
 ];
 
-const DISCRETIZING: [Pass; 6] = [
-    Pass::TransformRigid,
-    Pass::TransformSkinned,
-    Pass::CountColumns,
-    Pass::ClearCells,
-    Pass::VoxelizeTriangles,
-    Pass::MergeFragments,
-];
-const BUILDING: [Pass; 9] = [
-    Pass::MarkLeaves,
-    Pass::ReduceMasks,
-    Pass::ScanBlocks,
-    Pass::CountNodes,
-    Pass::EmitNodes,
-    Pass::SortVoxels,
-    Pass::GatherNearest,
-    Pass::GatherSplit,
-    Pass::AverageNodes,
-];
-
 /// One way, and what its frames took.
 struct Variant {
     settings: Settings,
+    row: DiscretizerRow,
     discretize_ms: Vec<f64>,
     build_ms: Vec<f64>,
     both_ms: Vec<f64>,
     clock_ms: Vec<f64>,
-    /// Why it is not measured.
-    missing: Option<String>,
 }
 
 /// Both discretizers on the subject's pose. `warmup`: frames of each that are not measured.
@@ -101,7 +80,7 @@ async fn measure(mut lab: Lab, report: &Findings<DiscretizerReport>) -> Result<(
         }
     }
     let mut first_ms = None;
-    for (number, variant) in variants.iter_mut().enumerate() {
+    for (number, variant) in variants.into_iter().enumerate() {
         let row = variant.row(&mut lab, (comparing.part(number, VARIANTS.len()), first_ms)).await?;
         first_ms = first_ms.or(row.rebuild.map(|rebuild| rebuild.median_ms));
         let mut report = report.borrow_mut();
@@ -116,38 +95,29 @@ impl Variant {
         let mut settings = settings.clone();
         let discretization = &mut settings.method.discretization;
         (discretization.discretizer, discretization.cells, discretization.filter) = (discretizer, cells, filter);
-        Self {
-            settings,
-            discretize_ms: Vec::new(),
-            build_ms: Vec::new(),
-            both_ms: Vec::new(),
-            clock_ms: Vec::new(),
-            missing: None,
-        }
-    }
-
-    fn name(&self) -> String {
-        let Discretization { discretizer, cells, filter, .. } = self.settings.method.discretization;
-        DiscretizerRow::name_of(discretizer, (discretizer == Discretizer::Voxelize).then_some(cells), filter)
+        let cells = (discretizer == Discretizer::Voxelize).then_some(cells);
+        let row = DiscretizerRow { discretizer, cells, filter, ..DiscretizerRow::default() };
+        let (discretize_ms, build_ms, both_ms, clock_ms) = Default::default();
+        Self { settings, row, discretize_ms, build_ms, both_ms, clock_ms }
     }
 
     /// A frame from the pose on. What does not fit the adapter is not tried again.
     async fn run(&mut self, lab: &mut Lab, share: Share, counts: bool) -> Result<(), ExperimentError> {
-        if self.missing.is_some() {
+        if self.row.missing.is_some() {
             return Ok(());
         }
         lab.engine.invalidate();
         let started = Instant::now();
         match lab.run(&self.settings, NO_PICTURE, share).await {
             Err(error) if error.is_of_room() => {
-                lab.miss(&self.name(), &error);
-                self.missing = Some(error.to_string());
+                lab.miss(&self.row.name(), &error);
+                self.row.missing = Some(error.to_string());
             }
             outcome => outcome?,
         }
-        if counts && self.missing.is_none() {
+        if counts && self.row.missing.is_none() {
             self.clock_ms.push(started.elapsed().as_secs_f64() * 1e3);
-            let [discretize, build] = [&DISCRETIZING[..], &BUILDING].map(|passes| took(&lab.engine, passes));
+            let [discretize, build] = [&Part::DISCRETIZED[..], &Part::BUILT].map(|parts| took(&lab.engine, parts));
             self.discretize_ms.push(discretize);
             self.build_ms.push(build);
             self.both_ms.push(discretize + build);
@@ -158,39 +128,31 @@ impl Variant {
 
     /// With the cells that are missed, from a frame that is not timed. `first_ms`: what the first variant takes.
     async fn row(
-        &mut self,
+        self,
         lab: &mut Lab,
         (share, first_ms): (Share, Option<f64>),
     ) -> Result<DiscretizerRow, ExperimentError> {
-        let discretization = self.settings.method.discretization;
         let rebuild = Spread::of(&self.both_ms);
         let mut row = DiscretizerRow {
-            discretizer: discretization.discretizer,
-            cells: (discretization.discretizer == Discretizer::Voxelize).then_some(discretization.cells),
-            filter: discretization.filter,
             discretize: Spread::of(&self.discretize_ms),
             build: Spread::of(&self.build_ms),
             rebuild,
             clock: Spread::of(&self.clock_ms),
             ratio: rebuild.zip(first_ms).map(|(rebuild, first)| rebuild.median_ms / first),
-            found: None,
-            missing: self.missing.take(),
+            ..self.row
         };
         if row.missing.is_none() {
             lab.say(share, "comparing with exact voxels");
-            let mut settings = self.settings.clone();
+            let mut settings = self.settings;
             settings.method.look.accuracy = true;
             lab.run(&settings, NO_PICTURE, share).await?;
-            let report = lab.engine.accuracy();
-            row.found = report.and_then(|report| match discretization.filter {
-                Filter::Split => report.split,
-                Filter::Nearest => report.nearest,
-            });
+            row.found = lab.engine.accuracy().and_then(|report| report.of(row.filter));
         }
         Ok(row)
     }
 }
 
-fn took(engine: &Engine, passes: &[Pass]) -> f64 {
-    engine.timings().iter().filter(|timing| passes.contains(&timing.pass)).map(|timing| timing.kernel.ms).sum()
+fn took(engine: &Engine, parts: &[Part]) -> f64 {
+    let is_of = |timing: &&PassTiming| timing.pass.parts().iter().any(|part| parts.contains(part));
+    engine.timings().iter().filter(is_of).map(|timing| timing.kernel.ms).sum()
 }

@@ -25,7 +25,7 @@ pub struct DiscretizerReport {
     pub rows: Vec<DiscretizerRow>,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct DiscretizerRow {
     pub discretizer: Discretizer,
     /// How the voxelizer finds cells.
@@ -70,16 +70,8 @@ impl DiscretizerReport {
 impl DiscretizerRow {
     /// Of the discretizer, and what tells it from the others.
     pub fn name(&self) -> String {
-        Self::name_of(self.discretizer, self.cells, self.filter)
-    }
-
-    pub(in crate::experiment) fn name_of(
-        discretizer: Discretizer,
-        cells: Option<VoxelizerCells>,
-        filter: Filter,
-    ) -> String {
-        let how = cells.map_or_else(|| name_of(&filter), |cells| name_of(&cells));
-        format!("{}, {how}", name_of(&discretizer))
+        let how = self.cells.map_or_else(|| name_of(&self.filter), |cells| name_of(&cells));
+        format!("{}, {how}", name_of(&self.discretizer))
     }
 
     fn text(&self, exact: u64) -> Vec<String> {

@@ -41,7 +41,7 @@ impl CellStore {
             VoxelizerCells::Dense => 3 * depth,
             VoxelizerCells::Sparse => room.fragments.max(2).next_power_of_two().ilog2(),
         };
-        let bytes = Self::fragment_bytes(emits) * u64::from(room.fragments.max(1));
+        let bytes = Self::bytes_of_fragment(emits) * u64::from(room.fragments.max(1));
         Ok(Self {
             heads: buffers.heads.ensure(gpu, "cells of the voxelizer", 4 * ((1 << bucket_bits) + 1))?,
             fragments: buffers.fragments.ensure(gpu, "fragments", bytes)?,
@@ -52,8 +52,12 @@ impl CellStore {
         })
     }
 
-    pub fn fragment_bytes(emits: bool) -> u64 {
+    pub fn bytes_of_fragment(emits: bool) -> u64 {
         4 * u64::from(FRAGMENT_WORDS + if emits { EMISSION_WORDS } else { 0 })
+    }
+
+    pub(super) fn fragment_bytes(&self) -> u64 {
+        Self::bytes_of_fragment(self.emits)
     }
 
     /// Every cell is empty.

@@ -12,11 +12,11 @@ pub fn record(
     (columns, total): (&GpuBuffer, &GpuBuffer),
 ) {
     frame.clear_part(total, 8);
+    let kernel = gpu.kernel("voxelize/count.wgsl", &[("CONSERVATIVE", mode.is_conservative())]);
     for batch in &triangles.batches {
         let threads = u64::from(batch.list.end_triangle - batch.list.first_triangle);
-        let pass = frame.pass(&gpu.kernel("voxelize/count.wgsl", &[("CONSERVATIVE", mode.is_conservative())]));
         triangles
-            .bind(pass, batch)
+            .bind(frame.pass(&kernel), batch)
             .bind("columns", columns)
             .bind("counters", total)
             .bytes_moved(threads * (3 * (4 + 12) + 4))

@@ -15,15 +15,16 @@ pub fn record(
 ) {
     let constants = store.constants().into_iter().chain([("CONSERVATIVE", mode.is_conservative())]);
     let kernel = gpu.kernel("voxelize/cover.wgsl", &constants.collect::<Vec<_>>());
+    let fragment_bytes = store.fragment_bytes();
     for batch in &triangles.batches {
         let pass = triangles.bind(frame.pass(&kernel), batch);
         pass.uniform("room", &store.room)
             .bind("starts", starts)
             .bind("heads", &store.heads)
             .bind("fragments", &store.fragments)
-            .counted(&store.counts, |counts: &FragmentCounts| Counted {
+            .counted(&store.counts, move |counts: &FragmentCounts| Counted {
                 threads: u64::from(counts.columns),
-                bytes: u64::from(counts.columns) * 4 + u64::from(counts.fragments) * (24 + 8),
+                bytes: u64::from(counts.columns) * 4 + u64::from(counts.fragments) * (fragment_bytes + 8),
             })
             .dispatch(u64::from(columns));
     }

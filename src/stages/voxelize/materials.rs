@@ -1,7 +1,7 @@
 //! Materials and textures as the GPU voxelizes with them: every level of a texture that has no more texels along a side
 //! than the grid has cells. A piece of a surface in a cell reads finer ones only where it is a corner of the cell.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
@@ -27,18 +27,10 @@ impl SurfaceMaterials {
             let base = material.base_color_texture.map(|slot| (slot, Texels::of_base_color(material)));
             [base, material.emissive_texture.map(|slot| (slot, Texels::Opaque))]
         };
-        let read: BTreeMap<(usize, Texels), ()> = materials
-            .iter()
-            .flat_map(|material| slots(material))
-            .flatten()
-            .map(|(slot, t)| ((slot.texture, t), ()))
-            .collect();
-        let coded: Vec<_> = read
-            .into_par_iter()
-            .filter_map(|((texture, texels), ())| {
-                Some(((texture, texels), pyramids.coded(texture, texels, cells as usize)?))
-            })
-            .collect();
+        let read = materials.iter().flat_map(|material| slots(material)).flatten();
+        let read: BTreeSet<(usize, Texels)> = read.map(|(slot, texels)| (slot.texture, texels)).collect();
+        let coded = |read: (usize, Texels)| Some((read, pyramids.coded(read.0, read.1, cells as usize)?));
+        let coded: Vec<_> = read.into_par_iter().filter_map(coded).collect();
         let (mut texels, mut placed) = (Vec::new(), BTreeMap::new());
         for (read, levels) in coded {
             placed.insert(read, levels.place(&mut texels, read.1));

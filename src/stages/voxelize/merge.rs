@@ -14,7 +14,10 @@ pub fn record(
     (voxel_count, emission): (&GpuBuffer, &GpuBuffer),
 ) {
     frame.clear_part(&listed.world_voxels, WORLD_VOXEL_BYTES * u64::from(store.room.voxels));
+    // All threads walk the one item of the list.
+    frame.clear_part(&listed.work_hints, 4 * u64::from(store.room.hints));
     frame.clear_part(voxel_count, 4);
+    let fragment_bytes = store.fragment_bytes();
     frame
         .pass(&gpu.kernel("voxelize/merge.wgsl", &store.constants()))
         .uniform("room", &store.room)
@@ -25,9 +28,9 @@ pub fn record(
         .bind("world_voxels", &listed.world_voxels)
         .bind("voxel_objects", &listed.work_hints)
         .bind("voxel_emission", emission)
-        .counted(&store.counts, |counts: &FragmentCounts| Counted {
+        .counted(&store.counts, move |counts: &FragmentCounts| Counted {
             threads: u64::from(counts.fragments),
-            bytes: u64::from(counts.fragments) * 24 + u64::from(counts.voxels) * 20,
+            bytes: u64::from(counts.fragments) * fragment_bytes + u64::from(counts.voxels) * 20,
         })
         .dispatch(u64::from(store.room.fragments));
     frame.copy(voxel_count, 0, &store.counts, 8, 4);

@@ -4,9 +4,9 @@ use bytemuck::{Pod, Zeroable};
 
 use super::CellStore;
 use crate::data::fragments::{FragmentCounts, PosedTriangles};
-use crate::data::mesh::{ALPHA_BLEND, ALPHA_MASK, ALPHA_OPAQUE};
+use crate::data::mesh::{TextureSlot, alpha_of};
 use crate::gpu::{Constant, Counted, Gpu, GpuBuffer, Mirror, Recorder, constants, mirror};
-use crate::scene::{AlphaMode, Material, TextureRef, Wrap};
+use crate::scene::{Material, TextureRef, Wrap};
 
 pub const WRAP_REPEAT: u32 = 0;
 pub const WRAP_MIRRORED: u32 = 1;
@@ -21,16 +21,15 @@ pub const CONSTANTS: &[Constant] = constants![
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct SurfaceTexture {
-    pub u: [f32; 3],
-    pub tex_coord: u32,
-    pub v: [f32; 3],
-    pub first_word: u32,
+    pub slot: TextureSlot,
     pub size: [u32; 2],
     pub first_level: u32,
     pub end_level: u32,
     pub wrap: [u32; 2],
     pub nearest: u32,
     pub is_covering: u32,
+    pub first_word: u32,
+    pub pad: [u32; 3],
 }
 
 /// Mirror of `SurfaceMaterial` in shaders/voxelize/shade.wgsl.
@@ -51,16 +50,15 @@ pub const MIRRORS: &[Mirror] = &[
         SurfaceTexture,
         "shared/surface_texture.wgsl",
         "SurfaceTexture",
-        u,
-        tex_coord,
-        v,
-        first_word,
+        slot,
         size,
         first_level,
         end_level,
         wrap,
         nearest,
-        is_covering
+        is_covering,
+        first_word,
+        pad
     ),
     mirror!(
         SurfaceMaterial,
@@ -79,16 +77,13 @@ pub const MIRRORS: &[Mirror] = &[
 impl SurfaceTexture {
     /// `levels` says where a texture's levels begin, how large its image is, and which of its levels are there.
     pub(super) fn new(slot: TextureRef, (wrap, nearest): ([Wrap; 2], bool), levels: &Self) -> Self {
-        let (matrix, shift) = (slot.uv_from_tex_coord.matrix2, slot.uv_from_tex_coord.translation);
         let number = |wrap: Wrap| match wrap {
             Wrap::Repeat => WRAP_REPEAT,
             Wrap::MirroredRepeat => WRAP_MIRRORED,
             Wrap::ClampToEdge => WRAP_CLAMP,
         };
         Self {
-            u: [matrix.x_axis.x, matrix.y_axis.x, shift.x],
-            v: [matrix.x_axis.y, matrix.y_axis.y, shift.y],
-            tex_coord: slot.tex_coord as u32,
+            slot: TextureSlot::new(Some(slot), true),
             wrap: wrap.map(number),
             nearest: u32::from(nearest),
             ..*levels
@@ -100,11 +95,7 @@ impl SurfaceMaterial {
     /// `brightest`: of the scene, nits; 0: nothing emits.
     pub(super) fn new(material: &Material, brightest: f32, textures: [SurfaceTexture; 2]) -> Self {
         let [base_color_texture, emissive_texture] = textures;
-        let (alpha_mode, cutoff) = match material.alpha_mode {
-            AlphaMode::Opaque => (ALPHA_OPAQUE, 0.0),
-            AlphaMode::Mask { cutoff } => (ALPHA_MASK, cutoff),
-            AlphaMode::Blend => (ALPHA_BLEND, 0.0),
-        };
+        let (alpha_mode, cutoff) = alpha_of(material);
         let in_units = |nits: f32| if brightest > 0.0 { nits / brightest } else { 0.0 };
         Self {
             base_color: material.base_color,
@@ -127,6 +118,7 @@ pub fn record(
     store: &CellStore,
 ) {
     let kernel = gpu.kernel("voxelize/shade.wgsl", &store.constants());
+    let fragment_bytes = store.fragment_bytes();
     for batch in &triangles.batches {
         let pass = triangles.bind(frame.pass(&kernel), batch);
         pass.uniform("room", &store.room)
@@ -134,9 +126,9 @@ pub fn record(
             .bind("materials", materials)
             .bind("texels", texels)
             .bind("fragments", &store.fragments)
-            .counted(&store.counts, |counts: &FragmentCounts| Counted {
+            .counted(&store.counts, move |counts: &FragmentCounts| Counted {
                 threads: u64::from(counts.fragments),
-                bytes: u64::from(counts.fragments) * (24 + 20),
+                bytes: u64::from(counts.fragments) * (fragment_bytes + 20),
             })
             .dispatch(u64::from(store.room.fragments));
     }
