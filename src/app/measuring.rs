@@ -71,6 +71,7 @@ impl Measured {
             let (discretization, usual) = (&mut settings.method.discretization, Discretization::default());
             discretization.discretizer = usual.discretizer;
             (discretization.cells, discretization.filter) = (usual.cells, usual.filter);
+            discretization.stretching = usual.stretching;
         }
         if matches!(measure, Measure::Light | Measure::Voxels | Measure::Shadows | Measure::Discretizers) {
             settings.shot.camera = None;

@@ -16,6 +16,7 @@ use super::options::{Common, Moment};
 use super::output;
 use super::session::{NO_PICTURE, Session};
 use super::usage::Usage;
+use super::voxelized::Voxelized;
 
 /// Says what is in a scene, what was repaired or left out, and what its octree holds
 #[derive(Debug, Args)]
@@ -60,6 +61,8 @@ struct Facts {
     grid_corner: [f64; 3],
     /// In the caches, all objects together.
     voxels: u64,
+    /// What is voxelized every frame where other objects are moved.
+    voxelized: Vec<Voxelized>,
     levels: Vec<LevelReport>,
 }
 
@@ -85,13 +88,18 @@ impl Info {
         session.run(&settings, NO_PICTURE)?;
         let levels = session.engine.octree_report().map(|report| report.levels.clone()).unwrap_or_default();
         let lights = light_facts::lights(&session.prepared, &settings)?;
-        let facts = Facts::new(&session.prepared, &settings, lights, levels);
+        let voxelized = Voxelized::list(&session);
+        let facts = Facts::new(&session.prepared, &settings, (lights, voxelized, levels));
         if self.json { output::json(&facts) } else { output::result(&facts.text()) }
     }
 }
 
 impl Facts {
-    fn new(prepared: &Prepared, settings: &Settings, lights: Vec<LightFacts>, levels: Vec<LevelReport>) -> Self {
+    fn new(
+        prepared: &Prepared,
+        settings: &Settings,
+        (lights, voxelized, levels): (Vec<LightFacts>, Vec<Voxelized>, Vec<LevelReport>),
+    ) -> Self {
         let scene = &prepared.scene;
         let objects = scene.objects();
         Self {
@@ -119,6 +127,7 @@ impl Facts {
             span: prepared.grid.span,
             grid_corner: prepared.grid.corner().to_array(),
             voxels: prepared.voxel_count(),
+            voxelized,
             levels,
         }
     }
@@ -133,6 +142,7 @@ impl Facts {
         ];
         lines.extend(self.clips.iter().map(|clip| format!("clip \"{}\", {:.3} s", clip.name, clip.seconds)));
         lines.extend(self.clip_of_all.iter().map(|name| format!("clip \"{name}\", of all these")));
+        lines.extend(self.voxelized.iter().map(Voxelized::text));
         lines.extend(self.lights.iter().map(LightFacts::text));
         if !self.extensions.is_empty() {
             lines.push(format!("extensions: {}", self.extensions.join(", ")));

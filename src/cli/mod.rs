@@ -26,6 +26,7 @@ mod session;
 mod usage;
 mod values;
 mod view_values;
+mod voxelized;
 mod voxels;
 mod window;
 

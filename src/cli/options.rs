@@ -9,7 +9,10 @@ use octolume::export;
 use octolume::scene::OrbitCamera;
 use octolume::scene::load::{OpenOptions, SceneChoice};
 use octolume::settings::VoxelizationMode;
-use octolume::settings::{Discretization, Discretizer, Filter, Fit, NodeNames, Settings, VoxelAnchor, VoxelizerCells};
+use octolume::settings::{
+    Discretization, Discretizer, Filter, Fit, JointWeights, NodeNames, Settings, Stretching, VoxelAnchor,
+    VoxelizerCells,
+};
 
 use super::cone_options::ConeOptions;
 use super::lighting_options::LightingOptions;
@@ -40,12 +43,20 @@ pub struct Common {
     /// How a triangle becomes voxels; otherwise thin
     #[arg(long, value_name = "thin|conservative", value_parser = values::name::<VoxelizationMode>)]
     mode: Option<VoxelizationMode>,
+    /// Which joint weights a voxel of a skin gets: interpolated between corners, or those of the nearest one; otherwise
+    /// interpolated
+    #[arg(long, value_name = "interpolated|flat", value_parser = values::name::<JointWeights>)]
+    weights: Option<JointWeights>,
     /// Which point of a voxel is moved; otherwise its centre
     #[arg(long, value_name = "centre|corner", value_parser = values::name::<VoxelAnchor>)]
     anchor: Option<VoxelAnchor>,
     /// Where the voxels of a frame come from: moved, or made anew from the posed triangles; otherwise transform
     #[arg(long, value_name = "transform|voxelize", value_parser = values::name::<Discretizer>)]
     discretizer: Option<Discretizer>,
+    /// What is done with objects that stretch by half a cell or more, whose moved voxels come apart: moved all the same,
+    /// or voxelized every frame beside the others; otherwise voxelize
+    #[arg(long, value_name = "move|voxelize", value_parser = values::name::<Stretching>)]
+    stretching: Option<Stretching>,
     /// How the voxelizer of posed triangles finds a cell's fragments: by a hash, or in a grid; otherwise sparse
     #[arg(long, value_name = "sparse|dense", value_parser = values::name::<VoxelizerCells>)]
     cells: Option<VoxelizerCells>,
@@ -168,8 +179,10 @@ impl Common {
         set(&mut discretization.grid, self.grid);
         set(&mut discretization.filter, self.filter);
         set(&mut discretization.mode, self.mode);
+        set(&mut discretization.weights, self.weights);
         set(&mut discretization.anchor, self.anchor);
         set(&mut discretization.discretizer, self.discretizer);
+        set(&mut discretization.stretching, self.stretching);
         set(&mut discretization.cells, self.cells);
         discretization.dense_level = self.dense_level.or(discretization.dense_level);
         discretization.span = self.span.or(discretization.span);

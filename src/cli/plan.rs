@@ -3,13 +3,16 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use octolume::plan::{Pass, Row};
 use octolume::settings::{ColorBy, MethodSettings, Settings, ShotSettings};
+use serde::Serialize;
 
 use super::look_options::LookOptions;
 use super::options::{Common, Moment};
 use super::output;
 use super::session::{NO_PICTURE, Session};
 use super::usage::Usage;
+use super::voxelized::Voxelized;
 
 /// Lists the passes of a frame, and why each runs, is reused or skipped
 #[derive(Debug, Args)]
@@ -28,6 +31,15 @@ pub struct Plan {
     moment: Moment,
     #[command(flatten)]
     common: Common,
+}
+
+#[derive(Serialize)]
+struct PlanRow<'a> {
+    #[serde(flatten)]
+    row: &'a Row,
+    /// What the voxelizer makes voxels of where other objects are moved.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    objects: &'a [Voxelized],
 }
 
 /// What differs in the second frame.
@@ -66,13 +78,18 @@ impl Plan {
         }
         output::warnings(session.engine.left_out());
         let plan = session.engine.plan();
+        let voxelized = Voxelized::list(&session);
         if self.json {
-            return output::json(plan);
+            let of = |pass: Pass| if pass == Pass::VoxelizeTriangles { &*voxelized } else { &[] };
+            let rows = plan.rows.iter().map(|row| PlanRow { row, objects: of(row.pass) });
+            return output::json(&rows.collect::<Vec<_>>());
         }
         let rows = plan.rows.iter().map(|row| {
             vec![row.method.to_string(), output::name_of(&row.pass), output::name_of(&row.state), row.reason.to_owned()]
         });
-        output::result(&output::table(&["method", "pass", "state", "reason"], rows))
+        let table = output::table(&["method", "pass", "state", "reason"], rows);
+        let lines = [table].into_iter().chain(voxelized.iter().map(Voxelized::text));
+        output::result(&lines.collect::<Vec<_>>().join("\n"))
     }
 }
 

@@ -188,11 +188,29 @@ impl WorkList {
         for part in parts {
             list.push_part(pages.segments(part.part), part);
         }
-        list.items.push(WorkItem { first_thread: u32::MAX, ..WorkItem::zeroed() });
-        list.hints = (0..list.threads.div_ceil(WORK_HINT_THREADS))
-            .map(|hint| list.items.partition_point(|item| item.first_thread <= hint * WORK_HINT_THREADS) as u32 - 1)
-            .collect();
+        list.close();
         list
+    }
+
+    /// The same and, behind it, an item of `voxels` that were made from posed triangles and lie from `first_slot` on.
+    /// Returns the number of the first of them too, where their objects lie behind the hints: an even one.
+    pub fn with_posed(&self, voxels: u32, first_slot: u32, part: u32) -> (Self, u32) {
+        let first_thread = self.threads;
+        let threads = first_thread + voxels;
+        let first_voxel = threads.div_ceil(WORK_HINT_THREADS).next_multiple_of(2);
+        let mut list = Self { items: self.items.clone(), hints: Vec::new(), threads };
+        list.items.pop();
+        list.items.push(WorkItem { first_thread, first_slot, first_voxel, part, object: OBJECT_BY_VOXEL });
+        list.close();
+        (list, first_voxel)
+    }
+
+    /// Nothing follows.
+    fn close(&mut self) {
+        self.items.push(WorkItem { first_thread: u32::MAX, ..WorkItem::zeroed() });
+        let item_of = |thread| self.items.partition_point(|item| item.first_thread <= thread) as u32 - 1;
+        self.hints =
+            (0..self.threads.div_ceil(WORK_HINT_THREADS)).map(|hint| item_of(hint * WORK_HINT_THREADS)).collect();
     }
 
     fn push_part(&mut self, segments: &[u32], WorkPart { part, object, first_voxel, voxels }: WorkPart) {
@@ -245,5 +263,19 @@ mod tests {
         assert_eq!(list.items[1], WorkItem { first_thread: 10, first_slot: 0, first_voxel: 310, part: 2, object: 7 });
         assert_eq!(list.items[2].first_thread, 10 + 300_u32.div_ceil(SEGMENT_SLOTS) * SEGMENT_SLOTS);
         assert_eq!(list.hints.len(), 12);
+    }
+
+    #[test]
+    fn posed_voxels_follow_the_moved_ones_and_their_objects_follow_the_hints() {
+        let mut pages = Pages::default();
+        pages.enter(0, 70);
+        let work = WorkPart { part: 0, object: 7, first_voxel: 300, voxels: 70 };
+        let (list, first_voxel) = WorkList::new(&pages, [work]).with_posed(100, pages.slot_count(), 1);
+        assert_eq!((list.threads, list.hints), (170, vec![0, 0, 1]));
+        assert_eq!(first_voxel, 4);
+        let object = OBJECT_BY_VOXEL;
+        let first_slot = SEGMENT_SLOTS * PAGE_SEGMENTS;
+        assert_eq!(list.items[1], WorkItem { first_thread: 70, first_slot, first_voxel, part: 1, object });
+        assert_eq!((list.items.len(), list.items[2].first_thread), (3, u32::MAX));
     }
 }

@@ -1,16 +1,24 @@
 //! What a scene holds in one pose, as far as a plan depends on it.
 
 use crate::plan::SceneFacts;
-use crate::prepare::{FrameMatrices, Prepared};
+use crate::prepare::Prepared;
 use crate::scene::{Primitive, Scene};
 use crate::settings::Hidden;
 
-/// Counts a frame's voxels in the grid, and the triangles of what is not hidden.
-pub fn facts(prepared: &Prepared, frame: &FrameMatrices, hidden: &Hidden, glossy_roughness: f64) -> SceneFacts {
+/// Counts a frame's voxels in the grid, and the triangles of what is not hidden. By part: whether it is there and moved,
+/// and whether it is there and voxelized.
+pub fn facts(
+    prepared: &Prepared,
+    [moved, voxelized]: [&[bool]; 2],
+    hidden: &Hidden,
+    glossy_roughness: f64,
+) -> SceneFacts {
     let mut facts = SceneFacts::default();
-    for (part, _) in prepared.parts.iter().zip(&frame.resident).filter(|(_, resident)| **resident) {
+    for (index, part) in prepared.parts.iter().enumerate().filter(|(index, _)| moved[*index] || voxelized[*index]) {
         let voxels = part.tile.voxels.len() as u64;
-        if prepared.is_skinned(part) {
+        if voxelized[index] {
+            facts.voxelized += voxels
+        } else if prepared.is_skinned(part) {
             facts.skinned_voxels += voxels
         } else {
             facts.rigid_voxels += voxels

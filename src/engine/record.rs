@@ -73,7 +73,11 @@ impl Engine {
         let objects = || prepared.objects.iter().zip(0..).map(|(object, number)| (number, object.object.clone()));
         let new = || MeshScene::new(Arc::clone(&prepared.scene), objects().collect(), record_levels);
         let mesh = self.parts.mesh.get_or_insert_with(new);
-        Ok(mesh.upload(&self.gpu, (&frame.request.shot.hidden, textures), budget)?)
+        let is_there = mesh.upload(&self.gpu, (&frame.request.shot.hidden, textures), budget)?;
+        if is_there {
+            mesh.morph(&self.gpu, &frame.request.shot.pose)?;
+        }
+        Ok(is_there)
     }
 
     /// Records what can be: all that is left where sizes are known.

@@ -13,10 +13,10 @@ use crate::data::grid::Grid;
 use crate::digest::Digest;
 use crate::lights::{self, PosedLight, posed_lights};
 use crate::plan::{Asked, Contents, SceneFacts, WantedFor};
-use crate::prepare::{ExactVoxels, FrameMatrices, Prepared};
+use crate::prepare::{ExactVoxels, FrameMatrices, LeftToEach, Prepared};
 use crate::scene::{OrbitCamera, Pose};
 use crate::settings::lighting::Lighting;
-use crate::settings::{ColorBy, Hidden, Look, Settings, View};
+use crate::settings::{ColorBy, Discretizer, Hidden, Look, Settings, View};
 use crate::stages::fill::number_objects::OBJECT_MASK;
 use crate::stages::light::illuminate::LightParams;
 use crate::stages::light::shadow::ShadowParams;
@@ -50,7 +50,12 @@ pub struct Method {
     pub asked: Asked,
     pub lights: Vec<PosedLight>,
     pub shadow_maps: ShadowLayouts,
+    /// Of what is moved.
     pub matrices: FrameMatrices,
+    /// What is voxelized every frame, and what is moved.
+    pub left_to_each: LeftToEach,
+    /// Objects left out of this pose: a matrix of theirs is not finite.
+    left_out: Vec<usize>,
 }
 
 impl Method {
@@ -120,6 +125,24 @@ impl Request {
         })
     }
 
+    /// Objects whose voxels are moved although they stretch, a sentence each.
+    fn torn(&self) -> impl Iterator<Item = String> {
+        let not_moved = &self.shown().left_to_each.not_moved;
+        let moved = self.prepared.objects.iter().enumerate().filter(|(index, _)| !not_moved.contains(*index));
+        moved.filter_map(|(_, object)| {
+            let (name, why) = (&object.object.name, object.unmovable?);
+            Some(format!("object \"{name}\" {why}: its moved voxels leave its surface, voxelized ones would not"))
+        })
+    }
+
+    /// Objects that are voxelized every frame where others are moved: their numbers.
+    pub fn voxelized(&self) -> impl Iterator<Item = usize> {
+        let method = self.shown();
+        let is_mixed = method.settings().method.discretization.discretizer == Discretizer::Transform;
+        let objects = (0..self.prepared.objects.len()).filter(move |_| is_mixed);
+        objects.filter(|object| !method.left_to_each.not_voxelized.contains(*object))
+    }
+
     /// From the eye to the farthest corner of the grid, scene units.
     pub fn depth_range(&self) -> [f64; 2] {
         let grid = self.grid();
@@ -135,12 +158,13 @@ impl Request {
     pub fn left_out(&self) -> Vec<String> {
         let (prepared, method) = (&self.prepared, self.shown());
         let name = |&object: &usize| &prepared.objects[object].object.name;
-        let objects = method.matrices.left_out.iter().map(name);
+        let objects = method.left_out.iter().map(name);
         let objects =
             objects.map(|name| format!("object \"{name}\" is left out: in this pose its matrix is not finite"));
         let lighting = &self.settings().method.lighting;
         let lost = lights::left_out(&prepared.scene, &self.shot.pose, lighting, &self.shot.shown);
         objects
+            .chain(self.torn())
             .chain(self.all_outside())
             .chain(lost)
             .chain(misfits(prepared, &method.asked, &method.shadow_maps))
@@ -186,17 +210,23 @@ impl Shot {
 
 impl Method {
     fn new(prepared: &Prepared, shot: &Shot, settings: &Settings, wanted_for: WantedFor) -> Result<Self, EngineError> {
-        let (lighting, anchor) = (&settings.method.lighting, settings.method.discretization.anchor);
-        let matrices = prepared.fold((&settings.shot.motion, &shot.pose), anchor, &shot.hidden);
+        let (lighting, discretization) = (&settings.method.lighting, &settings.method.discretization);
+        let left_to_each = prepared.left_to_each(discretization, &shot.hidden);
+        let fold =
+            |left_out: &Hidden| prepared.fold((&settings.shot.motion, &shot.pose), discretization.anchor, left_out);
+        let [matrices, of_voxelized] = [&left_to_each.not_moved, &left_to_each.not_voxelized].map(fold);
         let emits = prepared.emits(lighting);
         let lights = posed_lights(&prepared.scene, &shot.pose, lighting, &shot.shown, emits);
         let shadow_maps = ShadowLayouts::new(prepared, &lights, settings);
-        let facts = facts(prepared, &matrices, &shot.hidden, settings.method.cone_tracing.glossy_roughness);
+        let residents = [&matrices, &of_voxelized].map(|frame| &*frame.resident);
+        let facts = facts(prepared, residents, &shot.hidden, settings.method.cone_tracing.glossy_roughness);
         let scene = SceneFacts { lights: lights.len() as u32, picture_px: shot.size_px, ..facts };
-        let contents =
-            contents(prepared, shot, (&matrices, &light_params(prepared, &lights, lighting), &shadow_maps.maps));
+        let voxelized = prepared.placed(&shot.pose, &left_to_each.not_voxelized);
+        let lights_and_maps = (&*light_params(prepared, &lights, lighting), &*shadow_maps.maps);
+        let contents = Contents { voxelized, ..contents(prepared, shot, &matrices, lights_and_maps) };
         let asked = Asked { scene, settings: settings.clone(), contents, wanted_for };
-        Ok(Self { asked, lights, shadow_maps, matrices })
+        let left_out = [&*matrices.left_out, &of_voxelized.left_out].concat();
+        Ok(Self { asked, lights, shadow_maps, matrices, left_to_each, left_out })
     }
 }
 
@@ -208,7 +238,8 @@ pub fn light_params(prepared: &Prepared, lights: &[PosedLight], lighting: &Light
 fn contents(
     prepared: &Prepared,
     shot: &Shot,
-    (frame, lights, shadow_maps): (&FrameMatrices, &[LightParams], &[ShadowParams]),
+    frame: &FrameMatrices,
+    (lights, shadow_maps): (&[LightParams], &[ShadowParams]),
 ) -> Contents {
     let resident: Vec<u8> = frame.resident.iter().map(|resident| u8::from(*resident)).collect();
     let (rigid, skinned) = frame.matrices.split_at(prepared.rigid_parts().min(frame.matrices.len()));
@@ -220,6 +251,7 @@ fn contents(
         rigid: bytes(rigid),
         skinned: bytes(skinned),
         placed: shot.placed,
+        voxelized: Digest::default(),
         lights: Digest::of_bytes(&[bytemuck::cast_slice(lights)]),
         shadow_maps: Digest::of_bytes(&[bytemuck::cast_slice(shadow_maps)]),
         camera: Digest::of(&shot.camera),

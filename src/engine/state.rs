@@ -175,6 +175,11 @@ impl Engine {
         self.wanted.as_ref().map_or(Vec::new(), |wanted| wanted.left_out())
     }
 
+    /// Objects that are voxelized every frame where others are moved: their numbers.
+    pub fn voxelized(&self) -> Vec<usize> {
+        self.wanted.as_ref().map_or(Vec::new(), |wanted| wanted.voxelized().collect())
+    }
+
     /// How many frames were finished or are on their way; grows with each that runs anything.
     pub fn frames_begun(&self) -> u64 {
         self.begun

@@ -8,10 +8,12 @@ use crate::settings::{Settings, View};
 /// What a scene holds, as far as a frame's plan depends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct SceneFacts {
-    /// Voxels of static and rigid objects inside the grid.
+    /// Voxels of static and rigid objects inside the grid that are moved.
     pub rigid_voxels: u64,
-    /// Voxels of skinned objects inside the grid.
+    /// The same of skinned objects.
     pub skinned_voxels: u64,
+    /// Voxels in the caches of objects inside the grid that are voxelized every frame.
+    pub voxelized: u64,
     pub triangles: u64,
     /// Lights that are on and not black.
     pub lights: u32,
@@ -25,7 +27,7 @@ pub struct SceneFacts {
 
 impl SceneFacts {
     pub fn voxels(&self) -> u64 {
-        self.rigid_voxels + self.skinned_voxels
+        self.rigid_voxels + self.skinned_voxels + self.voxelized
     }
 }
 
@@ -40,6 +42,8 @@ pub struct Contents {
     pub skinned: Digest,
     /// Where every triangle is, and which are hidden.
     pub placed: Digest,
+    /// The same of what is voxelized every frame alone.
+    pub voxelized: Digest,
     /// The lights as kernels read them.
     pub lights: Digest,
     /// How their shadow maps are laid out.

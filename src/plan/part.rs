@@ -17,6 +17,8 @@ pub enum Part {
     Columns,
     /// World voxels of the posed triangles: the other discretizer.
     PosedVoxels,
+    /// Both lists of world voxels in one, where some objects are moved and others voxelized.
+    JoinedVoxels,
     /// Which leaves and blocks there are, and their ranks (section 4.3).
     Masks,
     /// Keys of the blocks and pointers to children.
@@ -60,7 +62,7 @@ pub enum Part {
 
 impl Part {
     /// Every part, in flow order: each is made from parts before it.
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 29] = [
         Self::Caches,
         Self::Pages,
         Self::RigidVoxels,
@@ -68,6 +70,7 @@ impl Part {
         Self::Materials,
         Self::Columns,
         Self::PosedVoxels,
+        Self::JoinedVoxels,
         Self::Masks,
         Self::Topology,
         Self::Payload,
@@ -91,7 +94,8 @@ impl Part {
         Self::Comparison,
     ];
     /// World voxels, by either discretizer.
-    pub const DISCRETIZED: [Self; 4] = [Self::RigidVoxels, Self::SkinnedVoxels, Self::Columns, Self::PosedVoxels];
+    pub const DISCRETIZED: [Self; 5] =
+        [Self::RigidVoxels, Self::SkinnedVoxels, Self::Columns, Self::PosedVoxels, Self::JoinedVoxels];
     /// The octree behind them.
     pub const BUILT: [Self; 3] = [Self::Masks, Self::Topology, Self::Payload];
     /// Made of what the camera sees: other ones for another camera, and dearer the more pixels there are.
@@ -115,7 +119,8 @@ impl Part {
             Self::SkinnedVoxels => "pose unchanged",
             Self::Materials => "materials unchanged",
             Self::Columns | Self::PosedVoxels => "no triangle moved",
-            Self::Masks | Self::Topology | Self::Payload | Self::ObjectNumbers => "voxels unchanged",
+            Self::JoinedVoxels | Self::Masks | Self::Topology | Self::Payload => "voxels unchanged",
+            Self::ObjectNumbers => "voxels unchanged",
             Self::BlockLinks | Self::NodeLinks | Self::Emission => "voxels unchanged",
             Self::ShadowMaps => "lights and objects unmoved",
             Self::Light => "lighting unchanged",

@@ -21,6 +21,8 @@ pub enum Pass {
     VoxelizeTriangles,
     /// To one voxel of an object in a cell.
     MergeFragments,
+    /// Moved voxels and those of voxelized objects, in one list.
+    JoinVoxels,
     MarkLeaves,
     ReduceMasks,
     ScanBlocks,
@@ -82,7 +84,7 @@ pub enum Pass {
 
 impl Pass {
     /// Every pass, in frame order.
-    pub const ALL: [Self; 50] = [
+    pub const ALL: [Self; 51] = [
         Self::UploadCaches,
         Self::ObjectIo,
         Self::TransformRigid,
@@ -92,6 +94,7 @@ impl Pass {
         Self::ClearCells,
         Self::VoxelizeTriangles,
         Self::MergeFragments,
+        Self::JoinVoxels,
         Self::MarkLeaves,
         Self::ReduceMasks,
         Self::ScanBlocks,
@@ -145,6 +148,7 @@ impl Pass {
             Self::UploadMaterials => &[Part::Materials],
             Self::CountColumns => &[Part::Columns],
             Self::ClearCells | Self::VoxelizeTriangles | Self::MergeFragments => &[Part::PosedVoxels],
+            Self::JoinVoxels => &[Part::JoinedVoxels],
             Self::MarkLeaves | Self::ReduceMasks | Self::ScanBlocks | Self::CountNodes => &[Part::Masks],
             Self::EmitNodes => &[Part::Topology],
             Self::SortVoxels | Self::GatherNearest | Self::GatherSplit | Self::AverageNodes => &[Part::Payload],
@@ -173,7 +177,8 @@ impl Pass {
     /// The kernels a run of it dispatches; none for work of the CPU.
     pub fn kernels(self) -> &'static [&'static str] {
         match self {
-            Self::UploadCaches | Self::ObjectIo | Self::UploadMaterials | Self::ClearCells | Self::UploadExact => &[],
+            Self::UploadCaches | Self::ObjectIo | Self::UploadMaterials => &[],
+            Self::ClearCells | Self::JoinVoxels | Self::UploadExact => &[],
             Self::TransformRigid => &["transform/rigid"],
             Self::TransformSkinned => &["transform/skinned"],
             Self::CountColumns => &["voxelize/count", "build/scan_sum", "build/scan_spread"],

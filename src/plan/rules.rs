@@ -25,6 +25,7 @@ fn wanted(part: Part, asked: &Asked, keys: &Keys, held: &Held) -> Wanted {
         Part::Materials => voxels::materials(asked),
         Part::Columns => voxels::columns(asked, keys),
         Part::PosedVoxels => voxels::posed_voxels(asked, keys),
+        Part::JoinedVoxels => voxels::joined(keys),
         Part::Masks => voxels::masks(asked, keys),
         Part::Topology => voxels::topology(keys),
         Part::Payload => voxels::payload(keys),

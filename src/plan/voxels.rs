@@ -3,7 +3,7 @@
 use super::effects::{ConesAsked, marches_shadows};
 use super::keys::{Keys, Wanted};
 use super::{Asked, Key, KeyBuilder, Part, Pass, WantedFor};
-use crate::settings::{ColorBy, Discretizer, Filter, Lookup, View};
+use crate::settings::{ColorBy, Discretizer, Filter, Lookup, Stretching, View};
 
 /// Why no octree is called for, if so.
 pub(super) fn octree_skipped(asked: &Asked) -> Option<&'static str> {
@@ -33,14 +33,26 @@ pub(super) fn unless(skipped: Option<&'static str>) -> Result<(), &'static str> 
     skipped.map_or(Ok(()), Err)
 }
 
-/// The posed triangles are voxelized, and no cached voxels moved.
-fn voxelizes(asked: &Asked) -> bool {
-    asked.settings.method.discretization.discretizer == Discretizer::Voxelize
+/// Why no cached voxels are moved, if so.
+fn moving_skipped(asked: &Asked) -> Option<&'static str> {
+    let moved = asked.scene.rigid_voxels + asked.scene.skinned_voxels;
+    (moved == 0).then_some(match asked.settings.method.discretization.discretizer {
+        Discretizer::Voxelize => "voxels are made from the posed triangles",
+        Discretizer::Transform => "every object stretches, and is voxelized",
+    })
+}
+
+/// Why no posed triangles are voxelized, if so.
+fn voxelizing_skipped(asked: &Asked) -> Option<&'static str> {
+    let stretching = asked.settings.method.discretization.stretching;
+    (asked.scene.voxelized == 0).then_some(match stretching {
+        Stretching::Move => "voxels are moved, not made from triangles",
+        Stretching::Voxelize => "no object stretches: voxels are moved, not made from triangles",
+    })
 }
 
 pub(super) fn caches(asked: &Asked) -> Wanted {
-    unless(octree_skipped(asked))?;
-    unless(voxelizes(asked).then_some("voxels are made from the posed triangles"))?;
+    unless(octree_skipped(asked).or(moving_skipped(asked)))?;
     Ok(Key::of(Part::Caches).digest("new caches", asked.contents.caches).build())
 }
 
@@ -65,17 +77,20 @@ pub(super) fn skinned(asked: &Asked, keys: &Keys) -> Wanted {
 }
 
 pub(super) fn materials(asked: &Asked) -> Wanted {
-    unless(octree_skipped(asked))?;
-    unless((!voxelizes(asked)).then_some("voxels are moved, not made from triangles"))?;
+    unless(octree_skipped(asked).or(voxelizing_skipped(asked)))?;
+    let discretization = &asked.settings.method.discretization;
     let key = Key::of(Part::Materials).digest("new materials", asked.contents.caches);
-    Ok(key.method("another grid", &asked.settings.method.discretization.grid).build())
+    let key = key.method("another grid", &discretization.grid);
+    Ok(key.method("other objects", &(discretization.discretizer, discretization.stretching)).build())
 }
 
 pub(super) fn columns(asked: &Asked, keys: &Keys) -> Wanted {
     keys.wanted(Part::Materials)?;
     let discretization = &asked.settings.method.discretization;
-    let key = Key::of(Part::Columns).digest("triangles moved", asked.contents.placed);
-    Ok(key.method("another grid", &(discretization.grid, discretization.mode)).build())
+    let key = Key::of(Part::Columns).digest("triangles moved", asked.contents.voxelized);
+    let key = key.method("another grid", &(discretization.grid, discretization.mode));
+    // How many there are is learnt by method.
+    Ok(key.method("other objects", &(discretization.discretizer, discretization.stretching)).build())
 }
 
 pub(super) fn posed_voxels(asked: &Asked, keys: &Keys) -> Wanted {
@@ -84,11 +99,23 @@ pub(super) fn posed_voxels(asked: &Asked, keys: &Keys) -> Wanted {
     Ok(key.method("another way to find cells", &asked.settings.method.discretization.cells).build())
 }
 
-/// World voxels, moved in their pages, as far as there are any, or made from the posed triangles.
+pub(super) fn joined(keys: &Keys) -> Wanted {
+    let key = from_moved(Key::of(Part::JoinedVoxels), keys)?;
+    Ok(key.input("triangles moved", Part::PosedVoxels, keys.wanted(Part::PosedVoxels)?).build())
+}
+
+/// World voxels: moved in their pages, as far as there are any, or made from the posed triangles, or both.
 pub(super) fn from_voxels(key: KeyBuilder, keys: &Keys) -> Result<KeyBuilder, &'static str> {
+    if let Some(voxels) = keys.get(Part::JoinedVoxels) {
+        return Ok(key.input("voxels moved", Part::JoinedVoxels, voxels));
+    }
     if let Some(voxels) = keys.get(Part::PosedVoxels) {
         return Ok(key.input("voxels are made from the posed triangles", Part::PosedVoxels, voxels));
     }
+    from_moved(key, keys)
+}
+
+fn from_moved(key: KeyBuilder, keys: &Keys) -> Result<KeyBuilder, &'static str> {
     let key = key.input("voxels moved", Part::Pages, keys.wanted(Part::Pages)?);
     let halves = [Part::RigidVoxels, Part::SkinnedVoxels].into_iter().filter_map(|part| Some((part, keys.get(part)?)));
     Ok(halves.fold(key, |key, (part, voxels)| key.input("voxels moved", part, voxels)))

@@ -12,7 +12,7 @@ use crate::data::voxel_cache::VoxelCache;
 use crate::disk_cache::{ContentKey, DiskCache};
 use crate::progress::Progress;
 use crate::scene::{Material, Mesh, Motion, Scene, Warning};
-use crate::settings::VoxelizationMode;
+use crate::settings::{JointWeights, VoxelizationMode};
 use crate::stages::voxelize::{self, TexturePyramids, VoxelizeError, VoxelizeInput, VoxelizePart};
 
 /// Where voxels are looked for before an object is voxelized, in this order.
@@ -44,6 +44,7 @@ pub(super) struct CacheSearch<'a> {
     textures: &'a TexturePyramids,
     texture_hashes: &'a TextureHashes,
     mode: VoxelizationMode,
+    weights: JointWeights,
     disk: Option<&'a DiskCache>,
     progress: &'a Progress,
     stored: AtomicBool,
@@ -56,7 +57,7 @@ impl<'a> CacheSearch<'a> {
         scene: &'a Scene,
         textures: &'a TexturePyramids,
         texture_hashes: &'a TextureHashes,
-        mode: VoxelizationMode,
+        (mode, weights): (VoxelizationMode, JointWeights),
         disk: Option<&'a DiskCache>,
         progress: &'a Progress,
     ) -> Self {
@@ -65,6 +66,7 @@ impl<'a> CacheSearch<'a> {
             textures,
             texture_hashes,
             mode,
+            weights,
             disk,
             progress,
             stored: AtomicBool::new(false),
@@ -167,7 +169,7 @@ impl<'a> CacheSearch<'a> {
             materials: &self.scene.materials,
             textures: self.textures,
             mode: self.mode,
-            with_joints: matches!(object.object.motion, Motion::Skinned { .. }),
+            joints: matches!(object.object.motion, Motion::Skinned { .. }).then_some(self.weights),
         }
     }
 }

@@ -209,7 +209,7 @@ impl Prepared {
             materials: &self.scene.materials,
             textures: &self.textures,
             mode: self.mode,
-            with_joints: false,
+            joints: None,
         })
     }
 }

@@ -75,7 +75,8 @@ impl Prepared {
             match self.objects[part.object].object.motion {
                 Motion::Skinned { .. } if is_hidden => fold.push_part(part, IVec3::ZERO, 0, false),
                 Motion::Skinned { skin } => fold.skinned_part(part, skin, pose),
-                Motion::Static | Motion::Rigid => fold.rigid_part(part, pose, is_hidden),
+                Motion::Static | Motion::Rigid if is_hidden => fold.push_rigid(part, None),
+                Motion::Static | Motion::Rigid => fold.rigid_part(part, pose),
             }
         }
         fold.frame
@@ -119,7 +120,13 @@ struct FoldedSkin {
 
 impl Fold<'_> {
     /// Every rigid part has a matrix, so that each finds its own; zero where nothing reads it.
-    fn rigid_part(&mut self, part: &PreparedPart, pose: &Pose, is_hidden: bool) {
+    fn push_rigid(&mut self, part: &PreparedPart, matrix: Option<Matrix3x4>) {
+        let first_matrix = self.frame.matrices.len() as u32;
+        self.frame.matrices.push(matrix.unwrap_or_default());
+        self.push_part(part, IVec3::ZERO, first_matrix, matrix.is_some());
+    }
+
+    fn rigid_part(&mut self, part: &PreparedPart, pose: &Pose) {
         let object = &self.prepared.objects[part.object];
         let moved = match &object.lattice {
             Lattice::Grid { .. } => self.turn,
@@ -128,12 +135,10 @@ impl Fold<'_> {
         };
         let grid_from_cells = self.grid_from_world * moved * object.lattice.space_from_cells();
         let rounded = self.rounded(&grid_from_cells, part.tile.origin);
-        let reaches = MovedBox::of(&grid_from_cells, part).touches_grid(self.prepared.grid.cells());
-        let resident = rounded.is_some() && reaches && !is_hidden;
-        let first_matrix = self.frame.matrices.len() as u32;
-        self.frame.matrices.push(rounded.filter(|_| resident).unwrap_or_default());
-        self.push_part(part, IVec3::ZERO, first_matrix, resident);
-        self.note(part, rounded.is_some() || is_hidden);
+        let reaches = object.may_leave_its_voxels()
+            || MovedBox::of(&grid_from_cells, part).touches_grid(self.prepared.grid.cells());
+        self.push_rigid(part, rounded.filter(|_| reaches));
+        self.note(part, rounded.is_some());
     }
 
     /// A blended voxel is a weighted mean of where its joints would have it. No joint's image of the
@@ -148,6 +153,9 @@ impl Fold<'_> {
         let used: Option<Vec<&DMat4>> =
             part.joints.iter().map(|&joint| folded.grid_from_cells[joint].as_ref()).collect();
         let reaches = |used: &Vec<&DMat4>| {
+            if self.prepared.objects[part.object].may_leave_its_voxels() {
+                return true;
+            }
             let boxes = used.iter().map(|matrix| MovedBox::of(matrix, part));
             boxes.fold(MovedBox::EMPTY, MovedBox::union).touches_grid(self.prepared.grid.cells())
         };

@@ -36,6 +36,7 @@ use enclose::Enclosed;
 pub use error::PrepareError;
 pub use exact::{ExactError, ExactSurface, ExactVoxel, ExactVoxels};
 pub use fold::{FrameMatrices, MotionError};
+pub use hidden::LeftToEach;
 pub use lattice::Lattice;
 pub use lights::LightsError;
 pub use origins::CacheOrigins;
@@ -84,18 +85,22 @@ pub fn prepare_with(
         let pose = || scene.pose(clip, preparation.motion.time_secs);
         room.check((&scene, &pose), (&grid, discretization), (&objects, &first_users))?;
     }
-    let mode = discretization.mode;
+    let (mode, weights) = (discretization.mode, discretization.weights);
     let (textures, texture_hashes) = match reuse {
         Some(old) => (Arc::clone(&old.textures), Arc::clone(&old.texture_hashes)),
         None => (Arc::new(TexturePyramids::new(&scene.textures)), Arc::new(TextureHashes::new(&scene.textures))),
     };
-    let reusable = reuse.filter(|old| old.grid.span == grid.span && old.grid.anchor == grid.anchor && old.mode == mode);
+    let is_alike = |old: &&Prepared| {
+        let made = &old.preparation.discretization;
+        old.grid.span == grid.span && old.grid.anchor == grid.anchor && (made.mode, made.weights) == (mode, weights)
+    };
+    let reusable = reuse.filter(is_alike);
     let wanted: Vec<CacheToFind> = keys
         .iter()
         .zip(&first_users)
         .map(|(key, &user)| CacheToFind { object: &objects[user], kept: reusable.and_then(|old| old.cache(key)) })
         .collect();
-    let work = CacheSearch::new(&scene, &textures, &texture_hashes, mode, stores.disk, progress);
+    let work = CacheSearch::new(&scene, &textures, &texture_hashes, (mode, weights), stores.disk, progress);
     let (caches, origins) = work.run(wanted)?;
     warnings.extend(work.into_warning());
     let parts = list_parts(&objects, &caches);

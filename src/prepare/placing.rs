@@ -52,7 +52,8 @@ const MOST_STILL_TRIANGLES: usize = 1 << 22;
 /// The objects that can be seen at some time, each on its lattice, and a warning for each mesh whose still objects share
 /// voxels. `cache` is numbered later.
 pub fn visible_objects(scene: &Scene, grid: &Grid, motion: MotionReport) -> (Vec<PreparedObject>, Vec<Warning>) {
-    let MotionReport { objects, hidden, stretching: _ } = motion;
+    let unmovable = motion.unmovable();
+    let MotionReport { objects, hidden, .. } = motion;
     let rest = scene.pose(None, 0.0);
     // The nodes of its still objects, by mesh.
     let mut shared: HashMap<usize, Vec<usize>> = HashMap::new();
@@ -64,10 +65,10 @@ pub fn visible_objects(scene: &Scene, grid: &Grid, motion: MotionReport) -> (Vec
     let mut warnings: Vec<Warning> = shared.iter().map(|(&mesh, nodes)| share_warning(scene, mesh, nodes)).collect();
     warnings.sort_by(|a, b| a.sentence.cmp(&b.sentence));
     let visible = objects.into_iter().enumerate().filter(|(index, _)| !hidden.contains(index));
-    let prepared = visible.map(|(_, object)| {
+    let prepared = visible.map(|(index, object)| {
         let stands = !shared.contains_key(&object.mesh) && is_countable(scene, &object, &rest, grid);
         let lattice = lattice_of(&object, &rest, grid, stands);
-        PreparedObject { object, cache: 0, lattice }
+        PreparedObject { object, cache: 0, lattice, unmovable: unmovable.get(&index).copied() }
     });
     (prepared.collect(), warnings)
 }

@@ -20,8 +20,8 @@ impl Preparation {
     /// Whether a grid that fits a pose is all that can differ, because another pose is shown.
     pub fn same_but_for_its_moment(&self, other: &Self) -> bool {
         let chosen = |this: &Self| {
-            let Discretization { grid, span, mode, .. } = this.discretization;
-            (grid, span, mode, this.motion.clip.clone(), this.fit.clone())
+            let Discretization { grid, span, mode, weights, .. } = this.discretization;
+            (grid, span, mode, weights, this.motion.clip.clone(), this.fit.clone())
         };
         chosen(self) == chosen(other)
     }
@@ -29,7 +29,8 @@ impl Preparation {
     /// Puts what voxels were made for into settings that wish for others.
     pub fn keep_in(&self, settings: &mut Settings) {
         let (made, wanted) = (&self.discretization, &mut settings.method.discretization);
-        (wanted.grid, wanted.span, wanted.mode) = (made.grid, made.span, made.mode);
+        (wanted.grid, wanted.span) = (made.grid, made.span);
+        (wanted.mode, wanted.weights) = (made.mode, made.weights);
         settings.shot.fit.clone_from(&self.fit);
     }
 }

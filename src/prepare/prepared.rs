@@ -9,7 +9,7 @@ use super::preparation::Preparation;
 use crate::data::grid::Grid;
 use crate::data::voxel_cache::{Tile, VoxelCache};
 use crate::scene::bounds::Aabb;
-use crate::scene::{Motion, Object, Scene, Warning};
+use crate::scene::{Motion, Object, Scene, Unmovable, Warning};
 use crate::settings::VoxelizationMode;
 use crate::stages::voxelize::TexturePyramids;
 
@@ -48,6 +48,15 @@ pub struct PreparedObject {
     /// Into [`Prepared::caches`].
     pub cache: usize,
     pub lattice: Lattice,
+    /// Where it is no rigid motion of its voxels.
+    pub unmovable: Option<Unmovable>,
+}
+
+impl PreparedObject {
+    /// Its triangles may be where no box around its voxels is.
+    pub fn may_leave_its_voxels(&self) -> bool {
+        matches!(self.unmovable, Some(Unmovable::Morphs { .. }))
+    }
 }
 
 /// One tile of an object's cache.

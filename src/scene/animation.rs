@@ -39,7 +39,7 @@ pub struct Channel {
     pub interpolation: Interpolation,
     /// Seconds, never decreasing; at the time of several keys the value jumps.
     pub times_secs: Vec<f64>,
-    /// Per key: 3 or 4 numbers ([`Property::width`]); for CUBICSPLINE in-tangent, value, out-tangent.
+    /// Per key as many numbers as [`Property::width`] says; for CUBICSPLINE in-tangent, value, out-tangent.
     /// STEP and LINEAR rotations are unit quaternions, xyzw.
     pub values: Vec<f64>,
 }
@@ -51,6 +51,11 @@ pub enum Property {
     Scale,
     /// Of the node with all that is below it: 0 hides it.
     Visibility,
+    /// One a morph target of the mesh that the node shows: no other node shows it.
+    MorphWeights {
+        mesh: usize,
+        targets: usize,
+    },
 }
 
 impl Property {
@@ -61,6 +66,7 @@ impl Property {
             Self::Rotation => "rotation",
             Self::Scale => "scale",
             Self::Visibility => "visibility",
+            Self::MorphWeights { .. } => "morph weights",
         }
     }
 
@@ -70,6 +76,7 @@ impl Property {
             Self::Rotation => 4,
             Self::Translation | Self::Scale => 3,
             Self::Visibility => 1,
+            Self::MorphWeights { targets, .. } => targets,
         }
     }
 }
@@ -145,6 +152,29 @@ impl Channel {
         DVec3::from_array(value)
     }
 
+    /// Morph weights at a time; at the time of several keys the last one's.
+    pub fn sample_weights(&self, time_secs: f64) -> Vec<f64> {
+        let width = self.property.width();
+        let numbers = |key: usize, offset: usize| &self.values[key * self.numbers_a_key() + offset..][..width];
+        let value = |key| numbers(key, if self.interpolation == Interpolation::CubicSpline { width } else { 0 });
+        let (key, fraction, interval_secs) = match self.place(time_secs) {
+            Place::At(key) => return value(key).to_vec(),
+            Place::After { key, fraction, interval_secs } => (key, fraction, interval_secs),
+        };
+        let ends = value(key).iter().zip(value(key + 1));
+        match self.interpolation {
+            Interpolation::Step => value(key).to_vec(),
+            Interpolation::Linear => ends.map(|(from, to)| from + (to - from) * fraction).collect(),
+            Interpolation::CubicSpline => {
+                let tangents = numbers(key, 2 * width).iter().zip(numbers(key + 1, 0));
+                let lanes = ends.zip(tangents);
+                lanes
+                    .map(|((&from, &to), (&out, &into))| hermite([from, to], [out, into], fraction, interval_secs))
+                    .collect()
+            }
+        }
+    }
+
     /// The number of the last key: 0 where it hides. Steps, whatever lies between.
     pub fn sample_number(&self, time_secs: f64) -> f64 {
         let (Place::At(key) | Place::After { key, .. }) = self.place(time_secs);
@@ -204,19 +234,22 @@ impl Channel {
         array::from_fn(|lane| self.values[start + lane])
     }
 
-    /// Hermite spline; tangents are per second.
+    /// A spline between a key and the next.
     fn spline<const N: usize>(&self, key: usize, t: f64, interval_secs: f64) -> [f64; N] {
         let (from, to): ([f64; N], [f64; N]) = (self.value(key), self.value(key + 1));
         let out_tangent: [f64; N] = self.numbers(key, 2 * N);
         let in_tangent: [f64; N] = self.numbers(key + 1, 0);
-        let (t2, t3) = (t * t, t * t * t);
-        array::from_fn(|lane| {
-            (2.0 * t3 - 3.0 * t2 + 1.0) * from[lane]
-                + interval_secs * (t3 - 2.0 * t2 + t) * out_tangent[lane]
-                + (-2.0 * t3 + 3.0 * t2) * to[lane]
-                + interval_secs * (t3 - t2) * in_tangent[lane]
-        })
+        array::from_fn(|lane| hermite([from[lane], to[lane]], [out_tangent[lane], in_tangent[lane]], t, interval_secs))
     }
+}
+
+/// Between two values with tangents, per second, out of the first and into the second.
+fn hermite([from, to]: [f64; 2], [out_tangent, in_tangent]: [f64; 2], t: f64, interval_secs: f64) -> f64 {
+    let (t2, t3) = (t * t, t * t * t);
+    (2.0 * t3 - 3.0 * t2 + 1.0) * from
+        + interval_secs * (t3 - 2.0 * t2 + t) * out_tangent
+        + (-2.0 * t3 + 3.0 * t2) * to
+        + interval_secs * (t3 - t2) * in_tangent
 }
 
 /// Spherical interpolation along the shorter arc. The same pose for `a` or −`a`, `b` or −`b`.

@@ -135,6 +135,7 @@ impl Scene {
 
     fn mover_box(&self, object: &Object, moving: &[bool]) -> Option<Mover> {
         match object.motion {
+            _ if self.meshes[object.mesh].is_morphing() => Some(Mover::Morphing(object.clone())),
             Motion::Rigid => Some(Mover::Rigid(object.node, self.mesh_box(object.mesh))),
             Motion::Skinned { skin } if self.skins[skin].joints.iter().any(|&joint| moving[joint]) => {
                 let joints = self.skins[skin].joints.len();
@@ -155,6 +156,7 @@ impl Scene {
                     union(all, bounds.and_then(|bounds| finite(bounds.transformed(matrix))))
                 })
             }
+            Mover::Morphing(object) => self.object_bounds(object, pose),
         }
     }
 
@@ -177,6 +179,8 @@ impl Scene {
 enum Mover {
     Rigid(usize, Option<Aabb>),
     Skinned(usize, Vec<Option<Aabb>>),
+    /// Looked at vertex by vertex.
+    Morphing(Object),
 }
 
 /// For each joint the box, in mesh space, of the vertices it has a weight on.

@@ -16,7 +16,8 @@ impl Scene {
     /// World positions of a primitive's vertices, in vertex order.
     pub fn posed_positions(&self, object: &Object, primitive: usize, pose: &Pose) -> Vec<DVec3> {
         let primitive = &self.meshes[object.mesh].primitives[primitive];
-        let positions = primitive.positions.par_iter().enumerate();
+        let positions = primitive.positions_at(pose.weights(object.mesh));
+        let positions = positions.par_iter().enumerate();
         match self.mover(object, primitive, pose) {
             Mover::Rigid(matrix) => positions.map(|(_, p)| matrix.transform_point3(p.as_dvec3())).collect(),
             Mover::Skinned(joints) => {
@@ -28,7 +29,8 @@ impl Scene {
     /// World normals of a primitive's vertices, unit length; zero where the mesh has a zero normal.
     pub fn posed_normals(&self, object: &Object, primitive: usize, pose: &Pose) -> Vec<DVec3> {
         let primitive = &self.meshes[object.mesh].primitives[primitive];
-        let normals = primitive.normals.par_iter().enumerate();
+        let normals = primitive.normals_at(pose.weights(object.mesh));
+        let normals = normals.par_iter().enumerate();
         match self.mover(object, primitive, pose) {
             Mover::Rigid(matrix) => {
                 let matrix = normal_matrix(&DMat3::from_mat4(matrix));
@@ -44,7 +46,9 @@ impl Scene {
     /// does (glTF: normal × tangent · handedness), of any length. Empty where the mesh has no tangents.
     pub fn posed_tangents(&self, object: &Object, primitive: usize, pose: &Pose) -> Vec<[DVec3; 2]> {
         let primitive = &self.meshes[object.mesh].primitives[primitive];
-        let axes = primitive.tangents.par_iter().zip(&primitive.normals).map(|(tangent, normal)| {
+        let weights = pose.weights(object.mesh);
+        let (tangents, normals) = (primitive.tangents_at(weights), primitive.normals_at(weights));
+        let axes = tangents.par_iter().zip(&*normals).map(|(tangent, normal)| {
             let along = tangent.truncate().as_dvec3();
             [along, normal.as_dvec3().cross(along) * f64::from(tangent.w)]
         });
@@ -69,6 +73,16 @@ impl Scene {
             Mover::Skinned(joints) => {
                 vertices.into_par_iter().map(|vertex| blend(primitive, vertex, &joints).determinant() < 0.0).collect()
             }
+        }
+    }
+
+    /// Of a primitive's vertices: what moves them.
+    pub(super) fn blended_matrices(&self, object: &Object, primitive: usize, pose: &Pose) -> Vec<DMat4> {
+        let primitive = &self.meshes[object.mesh].primitives[primitive];
+        let vertices = 0..primitive.positions.len();
+        match self.mover(object, primitive, pose) {
+            Mover::Rigid(matrix) => vec![matrix; vertices.len()],
+            Mover::Skinned(joints) => vertices.map(|vertex| blend(primitive, vertex, &joints)).collect(),
         }
     }
 

@@ -9,6 +9,11 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// A clip moves the weights of its morph targets.
+    pub fn is_morphing(&self) -> bool {
+        self.primitives.iter().any(|primitive| primitive.morph.is_some())
+    }
+
     pub fn triangle_count(&self) -> usize {
         self.primitives.iter().map(|primitive| primitive.triangles.len()).sum()
     }
@@ -33,4 +38,24 @@ pub struct Primitive {
     /// Sum to 1 at every vertex (renormalised on loading).
     pub weights: Vec<[f32; 4]>,
     pub triangles: Vec<[u32; 3]>,
+    /// Where a clip moves the weights of its morph targets.
+    pub morph: Option<Morph>,
+}
+
+/// Targets of one primitive, and the weights that its vertices already have.
+#[derive(Clone, Debug, Default)]
+pub struct Morph {
+    pub targets: Vec<MorphTarget>,
+    /// As many as the mesh has; vertices are given at these.
+    pub weights: Vec<f64>,
+    /// The file has no normals: those of the displaced triangles are.
+    pub is_flat: bool,
+}
+
+/// Displacements of all vertices at weight 1; empty where the target has none.
+#[derive(Clone, Debug, Default)]
+pub struct MorphTarget {
+    pub positions: Vec<Vec3>,
+    pub normals: Vec<Vec3>,
+    pub tangents: Vec<Vec3>,
 }

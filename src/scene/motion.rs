@@ -3,8 +3,11 @@
 //!
 //! The paper moves voxels rigidly. What a world matrix does beyond turning and shifting, U, is
 //! baked into the mesh before voxelization, as its mean over the clip that is played; an object whose
-//! U strays from that mean by half a cell or more is named. A rigid one then gets its largest U: its
-//! voxels are more than it needs when it is small, and never leave holes.
+//! U strays from that mean by half a cell or more is voxelized every frame instead, where settings allow it. Where it is
+//! moved, a rigid one has its largest U: its voxels are more than it needs when it is small, and never leave holes.
+
+use std::collections::HashMap;
+use std::fmt;
 
 use glam::DMat3;
 
@@ -44,30 +47,54 @@ pub struct MotionReport {
     pub objects: Vec<Object>,
     /// Their matrices leave no area, or are not finite, at all times.
     pub hidden: Vec<usize>,
-    /// Their stretch strays from its mean so far that some vertex is half a cell or more off at some time; the
+    /// They are no rigid motion of their voxels: their stretch strays from its mean so far that some vertex is half a
+    /// cell or more off at some time, or blended joints take voxels of a skin as far from where they should be; the
     /// largest such distance in cells.
     pub stretching: Vec<(usize, f64)>,
+    /// Morph targets take some vertex half a cell or more away from where it rests; the largest such distance in cells.
+    pub morphing: Vec<(usize, f64)>,
+}
+
+/// Why the voxels of an object cannot be moved as they are: by how many cells they would be off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Unmovable {
+    Stretches { cells: f64 },
+    Morphs { cells: f64 },
+}
+
+/// What follows the object's name in a sentence.
+impl fmt::Display for Unmovable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stretches { cells } => write!(f, "stretches by up to {cells:.1} cells"),
+            Self::Morphs { cells } => write!(f, "has morph targets that move it by up to {cells:.1} cells"),
+        }
+    }
 }
 
 impl MotionReport {
-    /// A sentence for each object that is hidden or stretches.
+    /// By object that cannot be moved as it is. One that stretches and morphs is said to do what takes it farther.
+    pub fn unmovable(&self) -> HashMap<usize, Unmovable> {
+        let stretching = self.stretching.iter().map(|&(object, cells)| (object, Unmovable::Stretches { cells }));
+        let mut found: HashMap<usize, Unmovable> = stretching.collect();
+        for &(object, cells) in &self.morphing {
+            let morphs = Unmovable::Morphs { cells };
+            let place = found.entry(object).or_insert(morphs);
+            if matches!(*place, Unmovable::Stretches { cells: stretch } if stretch < cells) {
+                *place = morphs;
+            }
+        }
+        found
+    }
+
+    /// A sentence for each object that is hidden.
     pub fn warnings(&self) -> Vec<Warning> {
-        let about = |object: usize, what: &str| {
-            let object = &self.objects[object];
-            Warning::new(format!("object \"{}\" {what}", object.name)).at(object.node)
-        };
-        let hidden = self
-            .hidden
-            .iter()
-            .map(|&object| about(object, "is hidden: its matrix leaves no area, or is not finite, at all times"));
-        let stretching = self.stretching.iter().map(|&(object, cells)| {
-            let moved = match self.objects[object].motion {
-                Motion::Skinned { .. } => "it is moved with its mean stretch",
-                Motion::Static | Motion::Rigid => "it has the voxels of its largest stretch at all times",
-            };
-            about(object, &format!("stretches by up to {cells:.1} cells; {moved}"))
+        let hidden = self.hidden.iter().map(|&object| {
+            let Object { name, node, .. } = &self.objects[object];
+            let why = "its matrix leaves no area, or is not finite, at all times";
+            Warning::new(format!("object \"{name}\" is hidden: {why}")).at(*node)
         });
-        hidden.chain(stretching).collect()
+        hidden.collect()
     }
 }
 
@@ -93,7 +120,8 @@ impl Scene {
         let hidden = (0..objects.len()).filter(|&object| means[object].is_none()).collect();
         let stretching = self.strays(&objects, span, clip);
         self.enlarge(&mut objects, &stretching, clip);
-        MotionReport { objects, hidden, stretching }
+        let morphing = self.morphs(&objects, span, clip);
+        MotionReport { objects, hidden, stretching, morphing }
     }
 
     /// By index into [`Scene::objects`]; see [`MotionReport::stretching`].
@@ -127,7 +155,7 @@ impl Scene {
                 LocalTransform::Trs(rest) => match channel.property {
                     Property::Translation => channel.leaves(rest.translation.to_array()),
                     Property::Scale => channel.leaves(rest.scale.to_array()),
-                    Property::Visibility => false,
+                    Property::Visibility | Property::MorphWeights { .. } => false,
                     Property::Rotation => {
                         channel.leaves(rest.rotation.to_array()) && channel.leaves((-rest.rotation).to_array())
                     }

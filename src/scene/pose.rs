@@ -1,5 +1,7 @@
 //! Where every node is at one moment.
 
+use std::collections::BTreeMap;
+
 use glam::{DMat3, DMat4};
 
 use super::{LocalTransform, Property, Scene};
@@ -11,9 +13,16 @@ pub struct Pose {
     pub world_from_node: Vec<DMat4>,
     /// With all that is above it.
     pub is_visible: Vec<bool>,
+    /// By mesh, of those whose weights a clip moves.
+    pub morph_weights: BTreeMap<usize, Vec<f64>>,
 }
 
 impl Pose {
+    /// Of a mesh's morph targets; `None` where they do not move.
+    pub fn weights(&self, mesh: usize) -> Option<&[f64]> {
+        self.morph_weights.get(&mesh).map(Vec::as_slice)
+    }
+
     /// Whether what a node carries is there: it is visible, and its matrix takes no area to nothing. One that is not
     /// finite is somewhere, if not at a place that can be shown.
     pub fn shows(&self, node: usize) -> bool {
@@ -41,7 +50,12 @@ impl Scene {
     pub fn pose(&self, clip: Option<usize>, time_secs: f64) -> Pose {
         let mut locals: Vec<LocalTransform> = self.nodes.iter().map(|node| node.local).collect();
         let mut is_visible: Vec<bool> = self.nodes.iter().map(|node| node.is_visible).collect();
+        let mut morph_weights = BTreeMap::new();
         for channel in clip.and_then(|clip| self.clips.get(clip)).iter().flat_map(|clip| &clip.channels) {
+            if let Property::MorphWeights { mesh, .. } = channel.property {
+                morph_weights.insert(mesh, channel.sample_weights(time_secs));
+                continue;
+            }
             if channel.property == Property::Visibility {
                 if let Some(visible) = is_visible.get_mut(channel.node) {
                     *visible = channel.sample_number(time_secs) != 0.0;
@@ -54,7 +68,7 @@ impl Scene {
                     Property::Translation => trs.translation = channel.sample_vector(time_secs),
                     Property::Rotation => trs.rotation = channel.sample_rotation(time_secs),
                     Property::Scale => trs.scale = channel.sample_vector(time_secs),
-                    Property::Visibility => {}
+                    Property::Visibility | Property::MorphWeights { .. } => {}
                 }
             }
         }
@@ -64,7 +78,7 @@ impl Scene {
             world_from_node.push(node.parent.map_or(local, |parent| world_from_node[parent] * local));
             is_visible[index] &= node.parent.is_none_or(|parent| is_visible[parent]);
         }
-        Pose { world_from_node, is_visible }
+        Pose { world_from_node, is_visible, morph_weights }
     }
 
     /// `world_from_joint · joint_from_mesh` for each joint of a skin: straight from the mesh as it

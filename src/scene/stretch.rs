@@ -4,6 +4,8 @@
 //! keys of a clip (over the joints too for a skin, weighted by use), the distance in cells by which U
 //! takes vertices away from that mean, and the largest U.
 
+use std::collections::BTreeMap;
+
 use glam::{DMat3, DMat4, DVec3};
 
 use super::{
@@ -11,18 +13,21 @@ use super::{
     bounds::{Aabb, joint_boxes},
     motion::LAST_BITS,
     polar::{right_polar_or_flat, unflattened},
+    strain::{Strains, affordable_moments},
 };
 
 /// Poses a clip is looked at, at most.
 const MAX_STRETCH_SAMPLES: usize = 65;
+/// However many triangles there are: the first, the last and one between.
+const LEAST_STRETCH_SAMPLES: usize = 3;
 
 /// From here on an object counts as stretching.
 const STRETCHING_CELLS: f64 = 0.5;
 
 impl Scene {
     /// Objects of which some vertex is at some time half a cell or more away from where the baked
-    /// mean would have it: index and the largest distance in cells. A shift common to all vertices
-    /// of an object or joint does not count.
+    /// mean would have it, and skins whose blended joints take voxels as far from where they should be: index and the
+    /// largest distance in cells. A shift common to all vertices of an object or joint does not count.
     pub(super) fn strays(&self, objects: &[Object], span: f64, clip: Option<usize>) -> Vec<(usize, f64)> {
         let moving = objects.iter().enumerate().filter(|(_, object)| object.motion != Motion::Static);
         let mut probes: Vec<(usize, Probe)> =
@@ -35,8 +40,50 @@ impl Scene {
                 probe.look_at(self, pose);
             }
         });
-        let strays = probes.into_iter().map(|(index, probe)| (index, probe.largest / span));
-        strays.filter(|&(_, cells)| cells >= STRETCHING_CELLS).collect()
+        let mut cells: BTreeMap<usize, f64> =
+            probes.into_iter().map(|(index, probe)| (index, probe.largest / span)).collect();
+        for (index, strained) in self.strains(objects, span, clip) {
+            cells.entry(index).and_modify(|cells| *cells = cells.max(strained));
+        }
+        cells.into_iter().filter(|&(_, cells)| cells >= STRETCHING_CELLS).collect()
+    }
+
+    /// Objects that morph targets take half a cell or more away from where they rest: index and the largest distance of a
+    /// vertex in cells, at the size that is baked.
+    pub(super) fn morphs(&self, objects: &[Object], span: f64, clip: Option<usize>) -> Vec<(usize, f64)> {
+        let morphing = (0..).zip(objects).filter(|(_, object)| self.meshes[object.mesh].is_morphing());
+        let mut farthest: Vec<(usize, &Object, f64)> = morphing.map(|(index, object)| (index, object, 0.0)).collect();
+        if farthest.is_empty() {
+            return Vec::new();
+        }
+        self.for_each_sample(clip, |pose| {
+            for (_, object, farthest) in &mut farthest {
+                *farthest = farthest.max(self.largest_displacement(object, pose));
+            }
+        });
+        let cells = farthest.into_iter().map(|(index, _, farthest)| (index, farthest / span));
+        cells.filter(|&(_, cells)| cells >= STRETCHING_CELLS).collect()
+    }
+
+    fn largest_displacement(&self, object: &Object, pose: &Pose) -> f64 {
+        let primitives = self.meshes[object.mesh].primitives.iter();
+        let distances = primitives.flat_map(|primitive| {
+            let moved = primitive.positions_at(pose.weights(object.mesh)).into_owned();
+            let steps = moved.into_iter().zip(&primitive.positions);
+            steps.map(|(moved, resting)| (object.stretch * (moved.as_dvec3() - resting.as_dvec3())).length())
+        });
+        distances.fold(0.0, f64::max)
+    }
+
+    /// How far blended joints take the voxels of skins off: index and cells. Nothing is, in cells that know no end.
+    fn strains(&self, objects: &[Object], span: f64, clip: Option<usize>) -> impl Iterator<Item = (usize, f64)> {
+        let looked_at = if span.is_finite() { objects } else { &[] };
+        let mut strains = Strains::new(self, looked_at, span);
+        if !strains.is_empty() {
+            let moments = affordable_moments(self, objects).clamp(LEAST_STRETCH_SAMPLES, MAX_STRETCH_SAMPLES);
+            self.for_each_of(moments, clip, |pose| strains.look_at(self, pose));
+        }
+        strains.found()
     }
 
     /// By object; `None` where no moment has a regular matrix.
@@ -99,11 +146,16 @@ impl Scene {
     }
 
     /// The rest pose without a clip; else a clip at its keys and half-way between.
-    fn for_each_sample(&self, clip: Option<usize>, mut look: impl FnMut(&Pose)) {
+    fn for_each_sample(&self, clip: Option<usize>, look: impl FnMut(&Pose)) {
+        self.for_each_of(MAX_STRETCH_SAMPLES, clip, look);
+    }
+
+    /// The same at fewer moments.
+    fn for_each_of(&self, moments: usize, clip: Option<usize>, mut look: impl FnMut(&Pose)) {
         match clip.and_then(|clip| Some((clip, self.clips.get(clip)?))) {
             None => look(&self.pose(None, 0.0)),
             Some((index, clip)) => {
-                let times = clip.sample_times(MAX_STRETCH_SAMPLES);
+                let times = clip.sample_times(moments);
                 let moments = if times.is_empty() { vec![0.0] } else { times };
                 moments.into_iter().for_each(|time_secs| look(&self.pose(Some(index), time_secs)));
             }

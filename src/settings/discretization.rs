@@ -11,12 +11,16 @@ pub struct Discretization {
     /// δ in scene units; `None`: as large as what the grid encloses asks for ([`super::Fit`]).
     pub span: Option<f64>,
     pub mode: VoxelizationMode,
+    /// Of voxels that joints move. A change voxelizes again.
+    pub weights: JointWeights,
     pub filter: Filter,
     /// Levels 0 to this one are stored densely, and never the leaves; `None`: [`Self::USUAL_DENSE_LEVEL`], or one
     /// above the leaves where the grid has no more.
     pub dense_level: Option<u32>,
     pub anchor: VoxelAnchor,
     pub discretizer: Discretizer,
+    /// Of what moving would tear or fold.
+    pub stretching: Stretching,
     /// Of the voxelizer.
     pub cells: VoxelizerCells,
 }
@@ -27,10 +31,12 @@ impl Default for Discretization {
             grid: 128,
             span: None,
             mode: VoxelizationMode::default(),
+            weights: JointWeights::default(),
             filter: Filter::default(),
             dense_level: None,
             anchor: VoxelAnchor::default(),
             discretizer: Discretizer::default(),
+            stretching: Stretching::default(),
             cells: VoxelizerCells::default(),
         }
     }
@@ -79,6 +85,18 @@ pub enum Discretizer {
     Voxelize,
 }
 
+/// What is done with objects that are no rigid motion of their voxels: those that stretch by half a cell or more over
+/// the clip that is played ([`crate::scene::MotionReport::stretching`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stretching {
+    /// Their voxels are moved as those of other objects.
+    Move,
+    /// Their posed triangles are voxelized every frame; other objects are moved.
+    #[default]
+    Voxelize,
+}
+
 /// How the voxelizer finds the fragments of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -114,6 +132,17 @@ impl Filter {
     pub fn is_split(self) -> f64 {
         f64::from(u8::from(self == Self::Split))
     }
+}
+
+/// Which weights of a skin's joints a voxel gets from the triangles in its cell (section 3.2).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum JointWeights {
+    /// Those of the corners, interpolated to where the triangle is in the cell.
+    #[default]
+    Interpolated,
+    /// Those of the nearest corner.
+    Flat,
 }
 
 /// Which point of a cache voxel the transformation moves.

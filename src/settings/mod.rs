@@ -19,7 +19,9 @@ mod view;
 mod visibility;
 
 pub use cone_tracing::ConeTracing;
-pub use discretization::{Discretization, Discretizer, Filter, VoxelAnchor, VoxelizationMode, VoxelizerCells};
+pub use discretization::{
+    Discretization, Discretizer, Filter, JointWeights, Stretching, VoxelAnchor, VoxelizationMode, VoxelizerCells,
+};
 pub use fit::{Fit, FitTo};
 pub use format::FORMAT;
 pub use light_names::{LightChange, LightError};

@@ -28,6 +28,11 @@ impl Hidden {
     pub fn contains(&self, object: usize) -> bool {
         self.0.get(object).copied().unwrap_or(false)
     }
+
+    /// What is hidden, and more. `objects`: how many there are.
+    pub fn and(&self, objects: usize, is_left_out: impl Fn(usize) -> bool) -> Self {
+        (0..objects).map(|object| self.contains(object) || is_left_out(object)).collect()
+    }
 }
 
 impl FromIterator<bool> for Hidden {

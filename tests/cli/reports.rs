@@ -118,8 +118,13 @@ fn bench_measures_light_by_variant_where_asked() {
 #[test]
 fn plan_reads_well_without_json() {
     let scenes = Scenes::new();
-    let text = succeed([OsStr::new("plan"), scenes.bent_box().as_os_str()]);
-    assert!(text.contains("| transform-rigid") && text.contains("no rigid object in the grid"), "{text}");
+    let plan = |stretching: &str| {
+        succeed([OsStr::new("plan"), scenes.bent_box().as_os_str(), OsStr::new("--stretching"), OsStr::new(stretching)])
+    };
+    let (moved, voxelized) = (plan("move"), plan("voxelize"));
+    assert!(moved.contains("| transform-rigid") && moved.contains("no rigid object in the grid"), "{moved}");
+    assert!(voxelized.contains("every object stretches, and is voxelized"), "{voxelized}");
+    assert!(voxelized.contains("voxelized every frame: \"Sleeve\" stretches by up to "), "{voxelized}");
 }
 
 #[test]

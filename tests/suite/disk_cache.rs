@@ -10,7 +10,7 @@ use octolume::prepare::{CacheOrigins, PrepareError, Prepared, Stores, prepare, p
 use octolume::progress::Progress;
 use octolume::scene::{Scene, builtin, load};
 use octolume::settings::VoxelizationMode;
-use octolume::settings::{Discretization, Discretizer, Filter, VoxelAnchor, VoxelizerCells};
+use octolume::settings::{Discretization, Discretizer, Filter, JointWeights, Stretching, VoxelAnchor, VoxelizerCells};
 use tempfile::TempDir;
 
 use crate::real_scenes::real_scenes;
@@ -49,10 +49,12 @@ pub const SMALL: Discretization = Discretization {
     grid: 64,
     span: None,
     mode: VoxelizationMode::Thin,
+    weights: JointWeights::Interpolated,
     filter: Filter::Split,
     dense_level: Some(5),
     anchor: VoxelAnchor::Centre,
     discretizer: Discretizer::Transform,
+    stretching: Stretching::Voxelize,
     cells: VoxelizerCells::Sparse,
 };
 

@@ -8,6 +8,7 @@ use octolume::disk_cache::{ContentKey, DiskCache};
 use octolume::prepare::kept::{Kept, TextureHashes};
 use octolume::progress::Progress;
 use octolume::scene::{AlphaMode, Material, TextureRef, Wrap};
+use octolume::settings::JointWeights;
 use octolume::settings::VoxelizationMode::{self, Conservative, Thin};
 use octolume::stages::voxelize::{ALGORITHM_VERSION, TexturePyramids, VoxelizeInput, voxelize};
 
@@ -32,7 +33,7 @@ fn rich() -> Object {
         alpha_mode: AlphaMode::Mask { cutoff: 0.5 },
         ..Material::default()
     };
-    object.with_joints = true;
+    object.joints = Some(JointWeights::Interpolated);
     object
 }
 
@@ -42,7 +43,7 @@ fn with_input<T>(object: &Object, mode: VoxelizationMode, look: impl FnOnce(&Vox
         materials: std::slice::from_ref(&object.material),
         textures: &TexturePyramids::new(&object.textures),
         mode,
-        with_joints: object.with_joints,
+        joints: object.joints,
     })
 }
 
@@ -66,7 +67,7 @@ fn mirrored(slot: TextureRef) -> TextureRef {
 
 #[test]
 fn every_input_changes_the_key() {
-    let changes: [fn(&mut Object); 31] = [
+    let changes: [fn(&mut Object); 32] = [
         |o| o.soup.positions[1].x += 1e-9,
         |o| o.soup.positions.push(DVec3::ZERO),
         |o| o.normals[3].y = 1e-9,
@@ -81,7 +82,8 @@ fn every_input_changes_the_key() {
         |o| o.primitive.triangles[1] = [1, 2, 3],
         |o| o.primitive.triangles.truncate(1),
         |o| o.primitive.material = None,
-        |o| o.with_joints = false,
+        |o| o.joints = None,
+        |o| o.joints = Some(JointWeights::Flat),
         |o| o.material.base_color[2] = 0.5,
         |o| o.material.metallic = 0.5,
         |o| o.material.roughness = 0.5,

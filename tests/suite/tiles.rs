@@ -11,8 +11,8 @@ use octolume::engine::Engine;
 use octolume::prepare::{Prepared, PreparedPart, prepare};
 use octolume::progress::Progress;
 use octolume::scene::{Interpolation, Mesh, Primitive, Property, Scene, Skin, Trs};
-use octolume::settings::VoxelizationMode;
 use octolume::settings::{Discretization, Filter, Hidden, MotionSettings, Settings, VoxelAnchor};
+use octolume::settings::{JointWeights, VoxelizationMode};
 use octolume::stages::transform::{rigid_ref, skinned_ref};
 use octolume::stages::voxelize::voxelize_cells;
 
@@ -61,7 +61,7 @@ fn untiled(soup: &Soup, mode: VoxelizationMode) -> BTreeSet<[i32; 3]> {
 fn the_cells_of_a_long_object_are_those_of_its_pieces() {
     for mode in MODES {
         let soup = long_soup();
-        let cache = Object { with_joints: true, ..Object::new(soup.clone()) }.cache(mode);
+        let cache = Object { joints: Some(JointWeights::Interpolated), ..Object::new(soup.clone()) }.cache(mode);
         let cells: BTreeSet<[i32; 3]> = cache.cells().map(|cell| cell.to_array()).collect();
         assert_eq!(cells.len(), cache.voxels.len(), "each cell once");
         assert!(cells == untiled(&soup, mode));

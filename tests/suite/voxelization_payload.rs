@@ -7,6 +7,7 @@ use octolume::data::packing::{pack_normal, unpack_normal};
 use octolume::data::voxel_cache::{TILE_CELLS, VoxelCache, VoxelJoints, VoxelizeReport};
 use octolume::progress::{Cancelled, Progress};
 use octolume::scene::{AlphaMode, Material};
+use octolume::settings::JointWeights;
 use octolume::settings::VoxelizationMode::{Conservative, Thin};
 use octolume::stages::voxelize::{TexturePyramids, VoxelizeError, VoxelizeInput, VoxelizePart, voxelize};
 
@@ -29,7 +30,7 @@ fn rich_object(random: &mut Random) -> Object {
         ..Material::default()
     };
     object.textures = vec![texture(37, 21, |x, y| [7 * x as u8, 11 * y as u8, (x * y) as u8, 100 + 4 * x as u8])];
-    object.with_joints = true;
+    object.joints = Some(JointWeights::Interpolated);
     object
 }
 
@@ -41,7 +42,7 @@ fn nothing_to_voxelize_is_an_empty_cache() {
         let vertices_only = Soup { positions: vec![DVec3::ONE; 3], triangles: vec![] };
         assert_eq!(Object::new(vertices_only).cache(mode), VoxelCache::default());
         let textures = TexturePyramids::new(&[]);
-        let input = VoxelizeInput { parts: vec![], materials: &[], textures: &textures, mode, with_joints: false };
+        let input = VoxelizeInput { parts: vec![], materials: &[], textures: &textures, mode, joints: None };
         assert_eq!(voxelize(&input, &Progress::default()).unwrap(), VoxelCache::default());
     }
 }
@@ -135,7 +136,7 @@ fn long_objects_are_tiled_and_lose_nothing() {
     for mode in MODES {
         let from = DVec3::new(-1500.25, 3.5, 7.5);
         let strip = Soup::parallelogram(from, DVec3::new(2600.0, 40.0, 1100.0), DVec3::new(0.0, 9.0, 2.0));
-        let object = Object { with_joints: true, ..Object::new(strip.clone()) };
+        let object = Object { joints: Some(JointWeights::Interpolated), ..Object::new(strip.clone()) };
         let cache = object.cache(mode);
         let mut cells: Vec<[i32; 3]> = cache.cells().map(|cell| cell.to_array()).collect();
         let mut expected: Vec<[i32; 3]> = strip.cells(mode).into_iter().map(|cell| cell.to_array()).collect();
@@ -157,14 +158,38 @@ fn skin_weights_of_triangles_in_a_cell_are_averaged_by_area() {
     object.normals = vec![DVec3::Z; 6];
     object.primitive.joints = [3, 3, 3, 8, 8, 8].map(|joint| [joint, 0, 0, 0]).to_vec();
     object.primitive.weights = vec![[1.0, 0.0, 0.0, 0.0]; 6];
-    object.with_joints = true;
+    object.joints = Some(JointWeights::Interpolated);
     let cache = object.cache(Conservative);
     assert_eq!(cache.joints, [VoxelJoints { joints: [3, 8, 0, 0], weights: [128, 127, 0, 0] }]);
 }
 
+/// A joint a corner of a square: flat voxels follow the corner that is nearest in their triangle, alone, where what a
+/// cell holds of the triangles agrees.
+#[test]
+fn flat_weights_are_those_of_the_nearest_corner() {
+    let mut object = Object { joints: Some(JointWeights::Flat), ..square(8.0) };
+    object.primitive.joints = (0..4).map(|joint| [joint, 0, 0, 0]).collect();
+    object.primitive.weights = vec![[1.0, 0.0, 0.0, 0.0]; 4];
+    let flat = object.cache(Thin);
+    let interpolated = Object { joints: Some(JointWeights::Interpolated), ..object.clone() }.cache(Thin);
+    assert_eq!(flat.joints.len(), 64);
+    let alone = flat.joints.iter().filter(|voxel| voxel.weights == [255, 0, 0, 0]);
+    let by_joint = |joint| alone.clone().filter(|voxel| voxel.joints[0] == joint).count();
+    // A triangle's third belongs to each of its corners; cells on the borders between them hold two.
+    assert!((0..4).all(|joint| (6..=22).contains(&by_joint(joint))), "{:?}", [0, 1, 2, 3].map(by_joint));
+    assert!(alone.count() > 40);
+    let blended = interpolated.joints.iter().filter(|voxel| voxel.weights[1] > 0).count();
+    assert!(blended > 48, "{blended}");
+    for (corner, cell) in [(0, [0, 0]), (1, [7, 0]), (2, [7, 7]), (3, [0, 7])] {
+        let at = flat.cells().position(|found| found.x == cell[0] && found.y == cell[1]);
+        let voxel = flat.joints[at.expect("a voxel in the corner")];
+        assert_eq!((voxel.joints[0], voxel.weights), (corner, [255, 0, 0, 0]));
+    }
+}
+
 #[test]
 fn vertices_without_weights_follow_their_first_joint_and_are_counted() {
-    let mut object = Object { with_joints: true, ..square(2.0) };
+    let mut object = Object { joints: Some(JointWeights::Interpolated), ..square(2.0) };
     object.primitive.joints = vec![[9, 1, 2, 3]; 4];
     object.primitive.weights = vec![[0.0; 4]; 4];
     let cache = object.cache(Thin);
@@ -219,7 +244,7 @@ fn files_keep_their_promises() {
                 materials: &scene.materials,
                 textures: &textures,
                 mode,
-                with_joints: true,
+                joints: Some(JointWeights::Interpolated),
             };
             let [thin, conservative] = MODES.map(|mode| voxelize(&input(mode), &Progress::default()).unwrap());
             validate(&thin);

@@ -76,7 +76,8 @@ fn voxelized(scene: &Scene, shape: &Shape) -> Made {
     let emits = shape.brightest > 0.0;
     let mut buffers = CellStoreBuffers::default();
     let store = CellStore::new(gpu, &mut buffers, (shape.cells, DEPTH), room, emits).expect("fits");
-    let materials = SurfaceMaterials::new(scene, &TexturePyramids::new(&scene.textures), (CELLS, shape.brightest));
+    let materials =
+        SurfaceMaterials::new(scene, &TexturePyramids::new(&scene.textures), (CELLS, shape.brightest), |_| true);
     let materials = (upload(gpu, "materials", &materials.materials), upload(gpu, "texels", &materials.texels));
     run(gpu, |frame| {
         store.record_clear(frame);

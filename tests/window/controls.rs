@@ -2,6 +2,7 @@
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
+use octolume::scene::builtin;
 use octolume::settings::{FitTo, NodeNames, Settings};
 
 use crate::rig::{Window, assert_changed, difference, wgpu_setup};
@@ -109,4 +110,29 @@ fn the_grid_is_fit_to_the_pose_and_to_a_selected_node() {
     window.choose("Nodes that count", "the selected node");
     assert_eq!(window.app().settings().shot.fit.counted.only.len(), 1);
     assert_changed(&before, &window.view(), "the grid of one node");
+}
+
+/// A heart whose joints scale comes apart where its voxels are moved; the facts of its node say so.
+#[test]
+fn what_stretches_is_voxelized_or_moved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("elastic.glb");
+    std::fs::write(&file, builtin::make("elastic", 1).expect("a known name").expect("is made")).expect("written");
+    let mut window = Window::open(&file.display().to_string());
+    window.set("Time", 0.5);
+    let voxelized = window.view();
+    window.choose("Stretching objects", "Moved");
+    assert_changed(&voxelized, &window.view(), "moved");
+    assert!(window.log_holds("its moved voxels leave its surface"));
+    let blended = window.view();
+    window.choose("Joint weights", "Flat");
+    assert_changed(&blended, &window.view(), "flat weights");
+    window.choose("Joint weights", "Smooth");
+    assert_eq!(difference(&blended, &window.view()), 0, "blending brings the picture back");
+    window.choose("Stretching objects", "Voxelized");
+    assert_eq!(difference(&voxelized, &window.view()), 0, "voxelizing brings the picture back");
+    window.open_tree();
+    window.select("ball");
+    let told = window.0.query_all_by_label_contains("has morph targets that move it by up to").count();
+    assert_eq!(told, 1);
 }

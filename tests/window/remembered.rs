@@ -88,7 +88,7 @@ fn panels_folder_and_recent_scenes_come_back_and_settings_do_not() {
     let mut window = start(close(window), "courtyard", host());
     assert!(window.0.query_by_label("Timings").is_none(), "the measurements are folded");
     assert!(window.0.query_by_label("Nearest").is_none(), "the filter is folded");
-    assert!(window.0.query_by_label("Octolume").is_some() && window.0.query_by_label("Thin").is_some());
+    assert!(window.0.query_by_label("Octolume").is_some() && window.0.query_by_label("Coverage").is_some());
     assert_eq!(window.0.get_by_label("Save to").value().as_deref(), Some("/somewhere/else"));
     assert_eq!(window.app().settings().method.look, Settings::default().method.look);
     assert_eq!((window.recent("flight.gltf"), window.recent("courtyard")), (1, 1));

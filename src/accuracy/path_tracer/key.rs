@@ -68,6 +68,7 @@ fn write_surface(writer: &mut ContentWriter, reader: &SurfaceReader, surface: &P
         joints: _,    // pose is all they are for
         weights: _,   // likewise
         triangles: _, // posed ones name their vertices
+        morph: _,     // posed ones are displaced
         tex_coords,
         colors,
     } = primitive;

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use egui::{ComboBox, DragValue, Role, Slider, Ui, WidgetInfo};
 
-use super::{choice, control, unfolding};
+use super::{control, unfolding};
 use crate::app::command::Command;
 use crate::settings::{
-    Discretization, Discretizer, FitTo, ShotSettings, Visibility, VoxelAnchor, VoxelizationMode, VoxelizerCells,
+    Discretization, Discretizer, FitTo, JointWeights, ShotSettings, Stretching, Visibility, VoxelAnchor,
+    VoxelizationMode, VoxelizerCells,
 };
 
 /// What the panel shows.
@@ -24,16 +25,7 @@ pub struct DiscretizationPanel<'a> {
 pub fn ui(ui: &mut Ui, panel: DiscretizationPanel<'_>) -> Vec<Command> {
     let current = panel.discretization;
     let mut wanted = *current;
-    control(ui, "Grid", "Cells along an axis. Voxelizes again; memory grows with the square.", |ui| {
-        let combo = ComboBox::from_id_salt("grid").width(110.0).selected_text(format!("{0}³ cells", wanted.grid));
-        combo
-            .show_ui(ui, |ui| {
-                for grid in Discretization::GRIDS {
-                    ui.selectable_value(&mut wanted.grid, grid, format!("{grid}³ cells"));
-                }
-            })
-            .response
-    });
+    grid_ui(ui, &mut wanted);
     span_ui(ui, &mut wanted, panel.span);
     let mut commands = fit_ui(ui, panel);
     let deepest = wanted.depth() - 1;
@@ -42,16 +34,64 @@ pub fn ui(ui: &mut Ui, panel: DiscretizationPanel<'_>) -> Vec<Command> {
     if control(ui, "Dense to", tip, |ui| ui.add(Slider::new(&mut dense, 0..=deepest).prefix("level "))).changed() {
         wanted.dense_level = Some(dense);
     }
-    let modes = [
-        (VoxelizationMode::Thin, "Thin", "6-separating: the thinnest layer no axial step passes through."),
-        (VoxelizationMode::Conservative, "Conservative", "Every cell a triangle touches: more voxels, no gaps."),
-    ];
-    choice(ui, "Cover", "Which cells a triangle fills. Voxelizes again.", &mut wanted.mode, &modes);
+    cover_ui(ui, &mut wanted);
     discretizer_ui(ui, &mut wanted);
     if wanted != *current {
         commands.push(Command::Discretize(wanted));
     }
     commands
+}
+
+/// How many cells there are, and which point of a voxel says in which of them it is.
+fn grid_ui(ui: &mut Ui, wanted: &mut Discretization) {
+    const ANCHORS: [(VoxelAnchor, &str, &str); 2] = [
+        (VoxelAnchor::Centre, "Centre", "Moves voxel centres."),
+        (VoxelAnchor::Corner, "Corner", "Equation 1 to the letter: a turned voxel lands up to √3 cells off."),
+    ];
+    let tip = "Cells along an axis, which voxelizes again: memory grows with the square. And which point of a voxel is moved.";
+    control(ui, "Grid", tip, |ui| {
+        ui.horizontal(|ui| {
+            let combo = ComboBox::from_id_salt("grid").width(76.0).selected_text(format!("{0}³ cells", wanted.grid));
+            let shown = combo.show_ui(ui, |ui| {
+                for grid in Discretization::GRIDS {
+                    ui.selectable_value(&mut wanted.grid, grid, format!("{grid}³ cells"));
+                }
+            });
+            if wanted.discretizer == Discretizer::Transform {
+                combo_of(ui, "Anchor", 50.0, &mut wanted.anchor, &ANCHORS);
+            }
+            shown.response
+        })
+        .inner
+    });
+}
+
+/// Which cells a triangle fills, and which joints move them.
+fn cover_ui(ui: &mut Ui, wanted: &mut Discretization) {
+    const MODES: [(VoxelizationMode, &str, &str); 2] = [
+        (VoxelizationMode::Thin, "Thin", "6-separating: the thinnest layer no axial step passes through."),
+        (VoxelizationMode::Conservative, "Conservative", "Every cell a triangle touches: more voxels, no gaps."),
+    ];
+    const WEIGHTS: [(JointWeights, &str, &str); 2] = [
+        (
+            JointWeights::Interpolated,
+            "Smooth",
+            "Voxels of skins get joint weights interpolated between the corners of their triangles.",
+        ),
+        (
+            JointWeights::Flat,
+            "Flat",
+            "Those of the nearest corner: as fast to move, coarser to bend. Enough for large cells.",
+        ),
+    ];
+    let tip = "Which cells a triangle fills, and which joint weights voxels of skins get. Voxelizes again.";
+    control(ui, "Cover", tip, |ui| {
+        ui.horizontal(|ui| {
+            combo_of(ui, "Coverage", 76.0, &mut wanted.mode, &MODES);
+            combo_of(ui, "Joint weights", 46.0, &mut wanted.weights, &WEIGHTS);
+        })
+        .response
+    });
 }
 
 /// What the grid encloses, and which nodes count for it.
@@ -79,7 +119,7 @@ fn to_ui(ui: &mut Ui, to: &mut FitTo) {
     if matches!(current, FitTo::Box { .. }) {
         kinds.push((current, "Box", "A box by its corners, as the command line or the settings say."));
     }
-    combo(ui, "Fit to", 60.0, to, &kinds);
+    combo_of(ui, "Fit to", 60.0, to, &kinds);
 }
 
 fn counted_ui(ui: &mut Ui, counted: &mut Visibility, panel: DiscretizationPanel<'_>) {
@@ -131,10 +171,6 @@ fn discretizer_ui(ui: &mut Ui, wanted: &mut Discretization) {
             "The posed triangles are voxelized every frame: no holes, no spill; time follows triangles and their cells.",
         ),
     ];
-    const ANCHORS: [(VoxelAnchor, &str, &str); 2] = [
-        (VoxelAnchor::Centre, "Centre", "Moves voxel centres."),
-        (VoxelAnchor::Corner, "Corner", "Equation 1 to the letter: a turned voxel lands up to √3 cells off."),
-    ];
     const CELLS: [(VoxelizerCells, &str, &str); 2] = [
         (VoxelizerCells::Sparse, "Sparse", "A cell's fragments by a hash of it: memory follows what is covered."),
         (
@@ -143,12 +179,26 @@ fn discretizer_ui(ui: &mut Ui, wanted: &mut Discretization) {
             "A word for every cell of the grid, cleared every frame, as in the paper: 512 MiB at 512³.",
         ),
     ];
+    const STRETCHING: [(Stretching, &str, &str); 2] = [
+        (
+            Stretching::Move,
+            "Moved",
+            "Objects that stretch are moved as all others, as in the paper: cheap, and their voxels come apart.",
+        ),
+        (
+            Stretching::Voxelize,
+            "Voxelized",
+            "Objects that stretch by half a cell or more are voxelized every frame: no holes, for the time their triangles take.",
+        ),
+    ];
     control(ui, "By", "Where the voxels of a frame come from.", |ui| {
         ui.horizontal(|ui| {
-            combo(ui, "Discretizer", 80.0, &mut wanted.discretizer, &DISCRETIZERS);
+            combo_of(ui, "Discretizer", 70.0, &mut wanted.discretizer, &DISCRETIZERS);
             match wanted.discretizer {
-                Discretizer::Transform => combo(ui, "Anchor", 60.0, &mut wanted.anchor, &ANCHORS),
-                Discretizer::Voxelize => combo(ui, "Cells", 60.0, &mut wanted.cells, &CELLS),
+                Discretizer::Transform => {
+                    combo_of(ui, "Stretching objects", 60.0, &mut wanted.stretching, &STRETCHING);
+                }
+                Discretizer::Voxelize => combo_of(ui, "Cells", 60.0, &mut wanted.cells, &CELLS),
             }
         })
         .response
@@ -156,6 +206,6 @@ fn discretizer_ui(ui: &mut Ui, wanted: &mut Discretization) {
 }
 
 /// One of few, called what the label says.
-fn combo<T: Copy + PartialEq>(ui: &mut Ui, label: &str, width: f32, value: &mut T, all: &[(T, &str, &str)]) {
+fn combo_of<T: Copy + PartialEq>(ui: &mut Ui, label: &str, width: f32, value: &mut T, all: &[(T, &str, &str)]) {
     unfolding(ui, label, width, value, all).widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, label));
 }

@@ -66,7 +66,15 @@ fn object_ui(ui: &mut Ui, panel: TreePanel<'_>, object: &PreparedObject) {
             format!("skinned by \"{}\", {} joint{}", skin.name, skin.joints.len(), plural(skin.joints.len()))
         }
     };
-    fact(ui, "Moves", &motion, "What moves its voxels. What strays from it is named in a warning.");
+    fact(ui, "Moves", &motion, "What moves its voxels.");
+    if let Some(why) = object.unmovable {
+        fact(
+            ui,
+            "Voxelized",
+            &why.to_string(),
+            "Every frame, where stretching objects are not moved. Moved voxels come apart.",
+        );
+    }
     let stretch = object.object.stretch;
     if stretch != glam::DMat3::IDENTITY {
         let [x, y, z] = stretch.diagonal().to_array();

@@ -5,11 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::MeshVertex;
 use super::texture::{self, MeshTexture, RecordLevels};
-use super::vertex::{mesh_vertex, vertex_joints};
+use super::vertex::{mesh_vertices, vertex_joints};
 use crate::data::texels::Texels;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Job, JobState, Recorder};
-use crate::scene::{Motion, Object, Scene, TextureRef};
+use crate::scene::{Motion, Object, Pose, Scene, TextureRef};
 use crate::settings::Hidden;
 
 /// Vertices of a batch, unless one primitive has more: 24 MiB, uploaded in one go.
@@ -59,6 +60,8 @@ pub struct MeshScene {
     /// By index into the scene's textures; those that are read in two ways are there twice.
     textures: BTreeMap<(usize, Texels), MeshTexture>,
     pub(super) white: Option<MeshTexture>,
+    /// By mesh, the weights of morph targets that its vertices were uploaded with last, if any.
+    morphed: BTreeMap<usize, Vec<f64>>,
     /// What `waiting` was listed for; `None` before the first upload.
     wanted: Option<(Hidden, Textures)>,
     waiting: Vec<Waiting>,
@@ -90,6 +93,7 @@ impl MeshScene {
             objects,
             batches: Vec::new(),
             white: None,
+            morphed: BTreeMap::new(),
             wanted: None,
             waiting: Vec::new(),
             record_levels,
@@ -122,6 +126,30 @@ impl MeshScene {
             }
         }
         Ok(self.waiting.is_empty() && self.make_levels(gpu, budget)?)
+    }
+
+    /// Displaces the vertices of morphing meshes as a pose has them. They are overwritten at once: when the recording
+    /// before has run.
+    pub fn morph(&mut self, gpu: &Gpu, pose: &Pose) -> Result<(), GpuError> {
+        let meshes = self.scene.meshes.iter().zip(&self.places).enumerate();
+        for (number, (mesh, places)) in meshes.filter(|(_, (mesh, _))| mesh.is_morphing()) {
+            let weights = pose.weights(number);
+            if self.morphed.get(&number).map(Vec::as_slice) == weights {
+                continue;
+            }
+            for (primitive, place) in mesh.primitives.iter().zip(places) {
+                let Some(place) = place else { continue };
+                let vertices = mesh_vertices(primitive, weights);
+                let offset = u64::from(place.first_vertex) * size_of::<MeshVertex>() as u64;
+                gpu.write(&self.batches[place.batch].vertices, offset, bytemuck::cast_slice(&vertices))?;
+            }
+            // What is not uploaded yet is uploaded as it rests.
+            match weights.filter(|_| places.iter().any(Option::is_some)) {
+                Some(weights) => _ = self.morphed.insert(number, weights.to_vec()),
+                None => _ = self.morphed.remove(&number),
+            }
+        }
+        Ok(())
     }
 
     /// Advances what makes the smaller levels; true when all are there. Without them no texture is.
@@ -196,7 +224,7 @@ impl MeshScene {
                 index_count: 3 * primitive.triangles.len() as u32,
             };
             placed.push((mesh, number, place));
-            vertices.extend((0..primitive.positions.len()).map(|vertex| mesh_vertex(primitive, vertex)));
+            vertices.extend(mesh_vertices(primitive, None));
             indices.extend(primitive.triangles.iter().flatten());
             if skinned {
                 joints.extend((0..primitive.positions.len()).map(|vertex| vertex_joints(primitive, vertex)));

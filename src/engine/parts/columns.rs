@@ -62,7 +62,8 @@ impl Made for Columns {
         let (gpu, grid) = (making.gpu, making.request.grid());
         self.likely = parts.likely.fragments(making.own_key()?.method(), making.estimated_share, u32::MAX);
         self.counted = None;
-        let posed = parts.posed_mesh(making, &mut self.matrices, &grid.grid_from_world())?;
+        let left_out = &making.method.left_to_each.not_voxelized;
+        let posed = parts.posed_mesh_without(left_out, making, &mut self.matrices, &grid.grid_from_world())?;
         let triangles = posed.triangles(gpu, &mut self.draws, grid.cells())?;
         let bytes = 4 * u64::from(triangles.count);
         let columns = self.columns.ensure(gpu, "columns of triangles", bytes)?;

@@ -7,6 +7,7 @@ use super::composed::{ComposedLight, Exposure};
 use super::cones::{DiffuseLight, GlossyTiles, SpecularLight};
 use super::emission::LeafEmission;
 use super::exact::{Comparison, ExactBits, ExactMasks};
+use super::joined_voxels::JoinedVoxels;
 use super::light::{Irradiance, Light};
 use super::links::{BlockLinks, NodeLinks};
 use super::making::Making;
@@ -53,7 +54,7 @@ macro_rules! kinds {
 }
 
 kinds! {
-    Caches, Pages, RigidVoxels, SkinnedVoxels, Materials, Columns, PosedVoxels,
+    Caches, Pages, RigidVoxels, SkinnedVoxels, Materials, Columns, PosedVoxels, JoinedVoxels,
     Masks, Topology, Payload, ObjectNumbers, BlockLinks, NodeLinks, LeafEmission,
     ShadowMaps, Light, Irradiance,
     Surfaces, DirectLight, DiffuseLight, GlossyTiles, SpecularLight, ComposedLight, Exposure,

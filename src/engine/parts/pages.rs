@@ -27,9 +27,14 @@ pub struct Pages {
 }
 
 impl Pages {
-    /// One a voxel.
-    pub fn threads(&self) -> u32 {
-        self.list.threads
+    /// One thread a voxel.
+    pub fn list(&self) -> &WorkList {
+        &self.list
+    }
+
+    /// Of all pages, filled or not.
+    pub fn slot_count(&self) -> u32 {
+        self.pages.as_ref().map_or(0, pages::Pages::slot_count)
     }
 
     pub fn rigid_threads(&self) -> u32 {

@@ -33,6 +33,10 @@ impl PosedVoxels {
         self.listed.clone().ok_or_else(|| GpuError::Missing { label: "posed voxels".to_owned() })
     }
 
+    pub fn room(&self) -> FragmentRoom {
+        self.room
+    }
+
     pub fn emission(&self) -> Result<GpuBuffer, GpuError> {
         self.emission.made("emission of posed voxels")
     }

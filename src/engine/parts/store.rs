@@ -14,6 +14,7 @@ use crate::engine::pool::{Keeper, Pinned, Pool, Turn};
 use crate::engine::times::PassTiming;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 use crate::plan::{Held, Key, Keys, Part, PlannedPart};
+use crate::settings::Hidden;
 
 /// Bytes that come back when the recording has run.
 pub type Read = (GpuBuffer, Range<u64>);
@@ -71,9 +72,20 @@ impl Parts {
         matrices: &mut Slot,
         space_from_world: &glam::DMat4,
     ) -> Result<PosedMesh<'_>, EngineError> {
+        self.posed_mesh_without(&making.request.shot.hidden, making, matrices, space_from_world)
+    }
+
+    /// The same of fewer objects.
+    pub fn posed_mesh_without(
+        &self,
+        left_out: &Hidden,
+        making: &Making<'_>,
+        matrices: &mut Slot,
+        space_from_world: &glam::DMat4,
+    ) -> Result<PosedMesh<'_>, EngineError> {
         let mesh = self.mesh.as_ref().ok_or_else(|| GpuError::Missing { label: "mesh vertices".to_owned() })?;
-        let shot = &making.request.shot;
-        Ok(PosedMesh::new(making.gpu, mesh, matrices, (&shot.pose, &shot.hidden), space_from_world)?)
+        let posed = (&*making.request.shot.pose, left_out);
+        Ok(PosedMesh::new(making.gpu, mesh, matrices, posed, space_from_world)?)
     }
 
     /// Records an instance, whose inputs are made or recorded before.

@@ -1,7 +1,8 @@
 //! World voxels. Voxel transformation (section 4.2): one half of the pages, of static and rigid objects or of skinned ones, moved
 //! for the pose. The halves lie in the buffers of their pages; each is moved by itself.
 
-use super::caches::Caches;
+use super::joined_voxels::JoinedVoxels;
+use super::moving::moving_voxels;
 use super::pages::Pages;
 use super::posed_voxels::PosedVoxels;
 use super::{Made, Making, Parts, Read};
@@ -19,33 +20,15 @@ pub struct RigidVoxels;
 #[derive(Debug, Default)]
 pub struct SkinnedVoxels;
 
-/// The world voxels of the frame, by whichever discretizer.
+/// The world voxels of the frame, by whichever discretizer, or by both.
 pub fn world_voxels(making: &Making<'_>, parts: &Parts) -> Result<ListedVoxels, EngineError> {
+    if let Some(voxels) = parts.get::<JoinedVoxels>(making.keys) {
+        return Ok(voxels.listed()?);
+    }
     match parts.get::<PosedVoxels>(making.keys) {
         Some(voxels) => Ok(voxels.listed()?),
         None => Ok(moving_voxels(making, parts)?.listed),
     }
-}
-
-/// What moves voxels.
-fn moving_voxels(making: &Making<'_>, parts: &Parts) -> Result<MovingVoxels, EngineError> {
-    let caches = parts.made::<Caches>(making.keys)?;
-    let pages = parts.made::<Pages>(making.keys)?;
-    let missing = || GpuError::Missing { label: "cache voxels".to_owned() };
-    let listed = ListedVoxels {
-        work_items: pages.work_items()?,
-        work_hints: pages.work_hints()?,
-        parts: pages.parts()?,
-        world_voxels: pages.world_voxels()?,
-        threads: pages.threads(),
-    };
-    Ok(MovingVoxels {
-        listed,
-        matrices: pages.matrices()?,
-        cache_voxels: caches.voxels.clone().ok_or_else(missing)?,
-        cache_joints: caches.joints.clone(),
-        rigid_threads: pages.rigid_threads(),
-    })
 }
 
 fn begin(making: &Making<'_>, parts: &Parts) -> Result<MovingVoxels, EngineError> {

@@ -77,8 +77,9 @@ impl Engine {
 
     /// That the octree is built from.
     fn world_voxels(&self, keys: &Keys, masks: &Masks) -> u64 {
-        let posed = self.parts.finished::<PosedVoxels>(keys).and_then(|voxels| voxels.counts);
-        posed.map_or(masks.voxels, |counts| counts.voxels).into()
+        let Some(posed) = self.parts.finished::<PosedVoxels>(keys) else { return masks.voxels.into() };
+        let moved = masks.voxels - posed.room().voxels;
+        posed.counts.map_or(masks.voxels, |counts| moved + counts.voxels).into()
     }
 
     fn filter_report(&self, keys: &Keys) -> Option<FilterReport> {

@@ -13,16 +13,25 @@ use crate::experiment::{Experiment, ExperimentError, Subject};
 use crate::gpu::Gpu;
 use crate::plan::Part;
 use crate::prepare::{Prepared, PreparedObject};
-use crate::settings::{Discretizer, Filter, Settings, View, VoxelizerCells};
+use crate::settings::{Discretizer, Filter, Settings, Stretching, View, VoxelizerCells};
 use crate::spread::Spread;
 
-/// What is measured beside each other. Voxels of the voxelizer lie wholly in their cells: filters do not change them.
-const VARIANTS: [(Discretizer, VoxelizerCells, Filter); 4] = [
-    (Discretizer::Transform, VoxelizerCells::Sparse, Filter::Split),
-    (Discretizer::Transform, VoxelizerCells::Sparse, Filter::Nearest),
-    (Discretizer::Voxelize, VoxelizerCells::Sparse, Filter::Nearest),
-    (Discretizer::Voxelize, VoxelizerCells::Dense, Filter::Nearest),
-];
+/// A discretizer, and what is open about it.
+#[derive(Clone, Copy)]
+enum Way {
+    Transform(Filter, Stretching),
+    /// Its voxels lie wholly in their cells: filters do not change them.
+    Voxelize(VoxelizerCells),
+}
+
+/// What is measured beside each other: what stretches is voxelized where something does.
+fn ways(prepared: &Prepared) -> Vec<Way> {
+    let mix = prepared.objects.iter().any(|object| object.unmovable.is_some());
+    let moved = [Filter::Split, Filter::Nearest].map(|filter| Way::Transform(filter, Stretching::Move));
+    let mixed = mix.then_some(Way::Transform(Filter::Split, Stretching::Voxelize));
+    let voxelized = [VoxelizerCells::Sparse, VoxelizerCells::Dense].map(Way::Voxelize);
+    moved.into_iter().chain(mixed).chain(voxelized).collect()
+}
 
 /// One way, and what its frames took.
 struct Variant {
@@ -69,11 +78,12 @@ async fn measure(mut lab: Lab, report: &Findings<DiscretizerReport>) -> Result<(
     let copied = copy::measure(&lab, copying).await?;
     report.borrow_mut().copy = Some(copied);
     lab.take_exact(&lab.settings.clone(), voxelizing).await?;
-    let mut variants = VARIANTS.map(|variant| Variant::new(&lab.settings, variant));
+    let ways = ways(&lab.prepared);
+    let mut variants: Vec<Variant> = ways.iter().map(|way| Variant::new(&lab.settings, *way)).collect();
     for run in 0..lab.warmup + lab.runs {
         let of_run = timing.part(run as usize, (lab.warmup + lab.runs) as usize);
         for (number, variant) in variants.iter_mut().enumerate() {
-            let share = of_run.part(number, VARIANTS.len());
+            let share = of_run.part(number, ways.len());
             lab.say(share, format!("discretizing: {} of {}", run + 1, lab.warmup + lab.runs));
             let counts = run >= lab.warmup;
             variant.run(&mut lab, share, counts).await?;
@@ -81,7 +91,7 @@ async fn measure(mut lab: Lab, report: &Findings<DiscretizerReport>) -> Result<(
     }
     let mut first_ms = None;
     for (number, variant) in variants.into_iter().enumerate() {
-        let row = variant.row(&mut lab, (comparing.part(number, VARIANTS.len()), first_ms)).await?;
+        let row = variant.row(&mut lab, (comparing.part(number, ways.len()), first_ms)).await?;
         first_ms = first_ms.or(row.rebuild.map(|rebuild| rebuild.median_ms));
         let mut report = report.borrow_mut();
         report.exact = lab.engine.accuracy().and_then(|accuracy| accuracy.exact_cells).unwrap_or(report.exact);
@@ -91,12 +101,21 @@ async fn measure(mut lab: Lab, report: &Findings<DiscretizerReport>) -> Result<(
 }
 
 impl Variant {
-    fn new(settings: &Settings, (discretizer, cells, filter): (Discretizer, VoxelizerCells, Filter)) -> Self {
+    fn new(settings: &Settings, way: Way) -> Self {
         let mut settings = settings.clone();
         let discretization = &mut settings.method.discretization;
-        (discretization.discretizer, discretization.cells, discretization.filter) = (discretizer, cells, filter);
-        let cells = (discretizer == Discretizer::Voxelize).then_some(cells);
-        let row = DiscretizerRow { discretizer, cells, filter, ..DiscretizerRow::default() };
+        let mut row = DiscretizerRow::default();
+        match way {
+            Way::Transform(filter, stretching) => {
+                (row.discretizer, row.filter, row.stretching) = (Discretizer::Transform, filter, Some(stretching));
+                discretization.stretching = stretching;
+            }
+            Way::Voxelize(cells) => {
+                (row.discretizer, row.filter, row.cells) = (Discretizer::Voxelize, Filter::Nearest, Some(cells));
+                discretization.cells = cells;
+            }
+        }
+        (discretization.discretizer, discretization.filter) = (row.discretizer, row.filter);
         let (discretize_ms, build_ms, both_ms, clock_ms) = Default::default();
         Self { settings, row, discretize_ms, build_ms, both_ms, clock_ms }
     }

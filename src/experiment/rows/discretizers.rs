@@ -6,7 +6,7 @@ use crate::accuracy::percent;
 use crate::engine::FilterReport;
 use crate::experiment::Cost;
 use crate::experiment::table::{Table, name_of};
-use crate::settings::{Discretizer, Filter, VoxelizerCells};
+use crate::settings::{Discretizer, Filter, Stretching, VoxelizerCells};
 use crate::spread::Spread;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -31,6 +31,8 @@ pub struct DiscretizerRow {
     /// How the voxelizer finds cells.
     pub cells: Option<VoxelizerCells>,
     pub filter: Filter,
+    /// What moving does with objects that stretch.
+    pub stretching: Option<Stretching>,
     /// GPU time of moving voxels, or of voxelizing.
     pub discretize: Option<Spread>,
     /// Of the octree, its leaves and its averages.
@@ -71,7 +73,8 @@ impl DiscretizerRow {
     /// Of the discretizer, and what tells it from the others.
     pub fn name(&self) -> String {
         let how = self.cells.map_or_else(|| name_of(&self.filter), |cells| name_of(&cells));
-        format!("{}, {how}", name_of(&self.discretizer))
+        let mixed = if self.stretching == Some(Stretching::Voxelize) { ", stretching voxelized" } else { "" };
+        format!("{}, {how}{mixed}", name_of(&self.discretizer))
     }
 
     fn text(&self, exact: u64) -> Vec<String> {

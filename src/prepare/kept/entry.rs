@@ -76,7 +76,7 @@ pub(super) mod tests {
             materials: &[],
             textures: &textures,
             mode: Default::default(),
-            with_joints: false,
+            joints: None,
         };
         ContentKey::of(&input, &TextureHashes::new(&[]))
     }

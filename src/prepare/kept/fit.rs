@@ -20,7 +20,7 @@ pub(super) fn fits(cache: &VoxelCache, input: &VoxelizeInput) -> bool {
         origin.cmpge(min.floor() - 1.0).all() && origin.cmple(max + 1.0).all()
     };
     cache.report.triangles == input.triangle_count()
-        && cache.joints.is_empty() != (input.with_joints && has_voxels)
+        && cache.joints.is_empty() != (input.joints.is_some() && has_voxels)
         && cache.emission.is_empty() != (input.emits() && has_voxels)
         && used <= known
         && cache.tiles.iter().all(is_near)
@@ -46,12 +46,12 @@ mod tests {
             positions_cells: positions.map(|position| position + shift).to_vec(),
             normals: vec![DVec3::Z; 3],
         };
-        let input = |part, with_joints| VoxelizeInput {
+        let input = |part, with_joints: bool| VoxelizeInput {
             parts: vec![part],
             materials: std::slice::from_ref(&glows),
             textures: &textures,
             mode: Default::default(),
-            with_joints,
+            joints: with_joints.then_some(Default::default()),
         };
         let lit = Primitive { material: Some(0), ..primitive.clone() };
         assert!(fits(&cache(), &input(part(&lit, 0.0), true)));

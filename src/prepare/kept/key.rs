@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use crate::disk_cache::ContentKey;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{AlphaMode, Material, Primitive, Texture, TextureRef, Wrap};
-use crate::settings::VoxelizationMode;
+use crate::settings::{JointWeights, VoxelizationMode};
 use crate::stages::voxelize::{ALGORITHM_VERSION, VoxelizeInput, VoxelizePart, textures_read};
 
 impl ContentKey {
@@ -23,17 +23,21 @@ impl ContentKey {
     pub fn of(input: &VoxelizeInput, textures: &TextureHashes) -> Self {
         let default_material = Material::default();
         let part_materials = input.part_materials(&default_material);
-        let VoxelizeInput { parts, materials: _, textures: _, mode, with_joints } = input;
+        let VoxelizeInput { parts, materials: _, textures: _, mode, joints } = input;
         let mut writer = ContentWriter::new(textures);
         writer.number(u64::from(ALGORITHM_VERSION));
         writer.number(match mode {
             VoxelizationMode::Thin => 0,
             VoxelizationMode::Conservative => 1,
         });
-        writer.number(u64::from(*with_joints));
+        writer.number(match joints {
+            None => 0,
+            Some(JointWeights::Interpolated) => 1,
+            Some(JointWeights::Flat) => 2,
+        });
         writer.number(parts.len() as u64);
         for (part, material) in parts.iter().zip(part_materials) {
-            writer.part(part, *with_joints);
+            writer.part(part, joints.is_some());
             writer.material(material);
         }
         writer.finish()
@@ -76,6 +80,7 @@ impl<'a> ContentWriter<'a> {
             joints,
             weights,
             triangles,
+            morph: _, // the resting shape is voxelized
         } = primitive;
         self.list(positions_cells);
         self.list(normals);

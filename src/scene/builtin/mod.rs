@@ -8,6 +8,7 @@ mod atrium;
 pub mod character;
 mod courtyard;
 mod crowd;
+mod elastic;
 mod error;
 pub mod exact;
 pub mod glb;
@@ -20,7 +21,7 @@ pub use error::MakeError;
 /// Names that [`bytes`] knows: scenes that open by their name.
 pub const NAMES: &[&str] = &["courtyard"];
 /// Names that [`make`] knows.
-pub const MADE: &[&str] = &["courtyard", "character", "atrium", DYNAMIC];
+pub const MADE: &[&str] = &["courtyard", "character", "atrium", "elastic", DYNAMIC];
 /// The scene whose [`make`] counts characters.
 pub const DYNAMIC: &str = "dynamic";
 
@@ -31,6 +32,7 @@ pub fn make(name: &str, characters: usize) -> Option<Result<Vec<u8>, MakeError>>
         "courtyard" => Some(courtyard::make()),
         "character" => Some(crowd::character()),
         "atrium" => Some(atrium::make()),
+        "elastic" => Some(elastic::make()),
         DYNAMIC => Some(crowd::dynamic(characters.clamp(1, MOST_CHARACTERS))),
         _ => None,
     }

@@ -1,6 +1,6 @@
 //! Clips: channels with key times that do not decrease and as many values as those call for.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 
 use gltf::json::{
     self,
@@ -17,7 +17,7 @@ use super::{
     nodes::VISIBILITY,
     source::Source,
 };
-use crate::scene::{Channel, Clip, Interpolation, LocalTransform, Node, Property, Warning};
+use crate::scene::{Channel, Clip, Interpolation, LocalTransform, Mesh, Node, Property, Warning};
 
 /// `rank` leads from the file's node numbers to those of `nodes`. Channels that cannot be read are left out with a
 /// warning.
@@ -26,13 +26,12 @@ pub(super) fn load(
     index: usize,
     animation: &json::Animation,
     rank: &[usize],
-    nodes: &[Node],
+    (nodes, meshes): (&[Node], &[Mesh]),
     warnings: &mut Vec<Warning>,
 ) -> Result<Clip, Defect> {
     let name = FileObject::item("animation", index, animation.name.as_deref());
     let mut channels: Vec<Channel> = Vec::new();
     let mut taken = HashSet::new();
-    let mut morphed = BTreeSet::new();
     for channel in &animation.channels {
         let target = &channel.target;
         let Some(&node) = rank.get(target.node.value()) else {
@@ -43,10 +42,15 @@ pub(super) fn load(
             Checked::Valid(FileProperty::Translation) => Property::Translation,
             Checked::Valid(FileProperty::Rotation) => Property::Rotation,
             Checked::Valid(FileProperty::Scale) => Property::Scale,
-            Checked::Valid(FileProperty::MorphTargetWeights) => {
-                morphed.insert(node);
-                continue;
-            }
+            Checked::Valid(FileProperty::MorphTargetWeights) => match morph_weights(&nodes[node], meshes) {
+                Some(property) => property,
+                None => {
+                    let what = name.member(format_args!("morph weights of {node_label}"));
+                    let cause = "it animates morph weights of a node that shows no morph target; it is left out";
+                    warnings.push(what.warning(cause).at(node));
+                    continue;
+                }
+            },
             Checked::Invalid => {
                 let sentence = format!("{name}, a property of {node_label}, which glTF does not know; it is left out");
                 warnings.push(Warning { part: name.part(), ..Warning::new(sentence) }.at(node));
@@ -55,7 +59,7 @@ pub(super) fn load(
         };
         let object = name.member(format_args!("{} of {node_label}", property.name()));
         let loaded = match taken.insert((node, property)) {
-            true if matches!(nodes[node].local, LocalTransform::Matrix(_)) => {
+            true if places(property) && matches!(nodes[node].local, LocalTransform::Matrix(_)) => {
                 Err("its node has a matrix, which cannot be animated".to_owned())
             }
             true => load_channel(source, animation, channel.sampler.value(), (node, property)),
@@ -83,16 +87,23 @@ pub(super) fn load(
             Err(cause) => leave_out(source, &object, &cause, node, warnings)?,
         }
     }
-    for node in morphed {
-        let moved = &nodes[node].name;
-        let cause = format!("the morph weights of \"{moved}\" move, which is not shown; its resting shape moves");
-        warnings.push(name.warning(cause).at(node));
-    }
     Ok(Clip {
         name: animation.name.clone().unwrap_or_else(|| format!("animation {index}")),
         duration_secs: channels.iter().filter_map(|channel| channel.times_secs.last()).copied().fold(0.0, f64::max),
         channels,
     })
+}
+
+/// Where a mesh with morph targets is shown.
+fn morph_weights(node: &Node, meshes: &[Mesh]) -> Option<Property> {
+    let mesh = node.mesh?;
+    let morphs = meshes[mesh].primitives.iter().filter_map(|primitive| primitive.morph.as_ref());
+    Some(Property::MorphWeights { mesh, targets: morphs.map(|morph| morph.targets.len()).max()? })
+}
+
+/// It moves the node.
+fn places(property: Property) -> bool {
+    matches!(property, Property::Translation | Property::Rotation | Property::Scale)
 }
 
 /// A channel that cannot be read is left out, unless for want of memory.
@@ -158,7 +169,9 @@ fn read_channel(
     let times_secs: Vec<f64> = times.into_iter().map(|[time]| f64::from(time)).collect();
     let values: Vec<f64> = match property {
         Property::Rotation => output.floats::<4>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
-        Property::Visibility => output.floats::<1>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
+        Property::Visibility | Property::MorphWeights { .. } => {
+            output.floats::<1>(0..output.count)?.into_iter().flatten().map(f64::from).collect()
+        }
         _ => output.floats::<3>(0..output.count)?.into_iter().flatten().map(f64::from).collect(),
     };
     Ok(Channel { node, property, interpolation, times_secs, values })

@@ -16,7 +16,7 @@ use super::{
     file_object::FileObject,
     source::Source,
 };
-use crate::scene::Warning;
+use crate::scene::{self, Morph, Warning};
 
 /// What one primitive of the file says about its vertices.
 pub(super) struct Attributes<'a> {
@@ -145,18 +145,69 @@ impl<'a> Attributes<'a> {
         weight: f32,
         rows: &mut [[f32; N]],
     ) -> Result<(), Defect> {
-        let Some(accessor) = displacements(target, semantic) else { return Ok(()) };
+        for (row, step) in rows.iter_mut().zip(self.displacements(semantic, target)?) {
+            row.iter_mut().zip(step).for_each(|(lane, step)| *lane += weight * step);
+        }
+        Ok(())
+    }
+
+    /// By vertex; none where the target does not displace the attribute.
+    fn displacements(&self, semantic: &Semantic, target: &MorphTarget) -> Result<Vec<[f32; 3]>, Defect> {
+        let Some(accessor) = displacements(target, semantic) else { return Ok(Vec::new()) };
         let object = || self.object(semantic).member("morph target");
         let elements = self.source.elements(accessor).about(object)?;
         if elements.count != self.declared_count {
             let cause = format!("has {} elements, and POSITION has {}", elements.count, self.declared_count);
             return Err(Defect::new(object(), cause));
         }
-        let moves: Vec<[f32; 3]> = elements.floats(self.picked()).about(object)?;
-        for (row, step) in rows.iter_mut().zip(moves) {
-            row.iter_mut().zip(step).for_each(|(lane, step)| *lane += weight * step);
+        self.source.budget.spend_on(self.vertices.len(), size_of::<[f32; 3]>()).about(object)?;
+        elements.floats(self.picked()).about(object)
+    }
+
+    /// What a clip moves: displacements at all vertices, beside the weights that are baked. `None` without targets.
+    /// What of a target cannot be read displaces nothing, which a warning tells.
+    pub fn morph(&self, weights: &[f32], is_flat: bool, warnings: &mut Vec<Warning>) -> Result<Option<Morph>, Defect> {
+        let targets = self.declared.targets.as_deref().unwrap_or_default();
+        let mut read = Vec::with_capacity(targets.len());
+        for target in targets {
+            let mut of = |semantic| self.repaired_displacements(&semantic, target, warnings);
+            let positions = of(Semantic::Positions)?;
+            // Normals of the displaced triangles stand in for those that the file does not have.
+            let [normals, tangents] = match is_flat {
+                true => [Vec::new(), Vec::new()],
+                false => [of(Semantic::Normals)?, of(Semantic::Tangents)?],
+            };
+            read.push(scene::MorphTarget { positions, normals, tangents });
         }
-        Ok(())
+        let weights = (0..read.len()).map(|target| weights.get(target).copied().unwrap_or(0.0).into()).collect();
+        Ok((!read.is_empty()).then_some(Morph { targets: read, weights, is_flat }))
+    }
+
+    fn repaired_displacements(
+        &self,
+        semantic: &Semantic,
+        target: &MorphTarget,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Vec<Vec3>, Defect> {
+        let object = || self.object(semantic).member("morph target");
+        let mut rows = match self.displacements(semantic, target) {
+            Ok(rows) => rows,
+            Err(Defect::Invalid { cause, .. }) if !self.source.budget.is_exceeded() => {
+                warnings.push(object().warning(format!("it {cause}; it displaces nothing")));
+                return Ok(Vec::new());
+            }
+            Err(defect) => return Err(defect),
+        };
+        let mut count = 0;
+        for row in rows.iter_mut().filter(|row| !is_finite(&**row)) {
+            *row = [0.0; 3];
+            count += 1;
+        }
+        if count > 0 {
+            let count = counted(count, "vertex", "vertices");
+            warnings.push(object().warning(format!("not finite at {count}, which it does not displace")));
+        }
+        Ok(rows.into_iter().map(Vec3::from_array).collect())
     }
 
     pub fn unsigned<const N: usize>(&self, semantic: &Semantic) -> Result<Vec<[u32; N]>, Defect> {

@@ -15,7 +15,7 @@ use super::{
     source::Source,
     weights::Influences,
 };
-use crate::scene::{Mesh, Primitive, Warning};
+use crate::scene::{Mesh, Primitive, Warning, morph::flat_normals};
 
 /// A mesh and how many of its primitives have no surface.
 pub(super) struct Loaded {
@@ -24,8 +24,8 @@ pub(super) struct Loaded {
     pub warnings: Vec<Warning>,
 }
 
-/// `weights` are those of its morph targets: its own, or those of the node that shows it.
-pub(super) fn load(source: &Source, index: usize, weights: &[f32]) -> Result<Loaded, Defect> {
+/// `weights` are those of its morph targets: its own, or those of the node that shows it; with whether a clip moves them.
+pub(super) fn load(source: &Source, index: usize, (weights, moves): (&[f32], bool)) -> Result<Loaded, Defect> {
     let mesh = &source.root.meshes[index];
     let name = FileObject::item("mesh", index, mesh.name.as_deref());
     let mut loaded = Loaded {
@@ -42,7 +42,8 @@ pub(super) fn load(source: &Source, index: usize, weights: &[f32]) -> Result<Loa
                     continue;
                 }
                 let attributes = Attributes::new(source, object, primitive, weights, &mut loaded.warnings)?;
-                loaded.mesh.primitives.push(load_primitive(attributes, primitive, mode, &mut loaded.warnings)?);
+                let as_drawn = (mode, moves.then_some(weights));
+                loaded.mesh.primitives.push(load_primitive(attributes, primitive, as_drawn, &mut loaded.warnings)?);
             }
             Checked::Valid(_) => loaded.without_surface += 1,
             Checked::Invalid => return Err(Defect::new(object, "has a mode that glTF does not know")),
@@ -54,7 +55,7 @@ pub(super) fn load(source: &Source, index: usize, weights: &[f32]) -> Result<Loa
 fn load_primitive(
     mut attributes: Attributes,
     primitive: &json::mesh::Primitive,
-    mode: Mode,
+    (mode, moving_weights): (Mode, Option<&[f32]>),
     warnings: &mut Vec<Warning>,
 ) -> Result<Primitive, Defect> {
     let corners = attributes.corners()?;
@@ -80,6 +81,10 @@ fn load_primitive(
     };
     let influences = Influences::of(&attributes, warnings)?;
     let (joints, weights) = influences.map(|i| (i.joints, i.weights)).unwrap_or_default();
+    let morph = match moving_weights {
+        Some(weights) => attributes.morph(weights, flat, warnings)?,
+        None => None,
+    };
     Ok(Primitive {
         material: primitive.material.map(|material| material.value()),
         normals,
@@ -90,6 +95,7 @@ fn load_primitive(
         weights,
         positions,
         triangles,
+        morph,
     })
 }
 
@@ -163,15 +169,4 @@ fn normals(
     let cause = format!("not unit vectors at {count}; they are normalised, or those of the triangles around");
     warnings.push(attributes.object(&Semantic::Normals).warning(cause));
     Ok(normals)
-}
-
-/// Unit face normals of unshared triangles; zero where a triangle has no area.
-fn flat_normals(positions: &[Vec3]) -> Vec<Vec3> {
-    positions
-        .chunks_exact(3)
-        .flat_map(|corner| {
-            let [a, b, c] = [corner[0].as_dvec3(), corner[1].as_dvec3(), corner[2].as_dvec3()];
-            [(b - a).cross(c - a).normalize_or_zero().as_vec3(); 3]
-        })
-        .collect()
 }

@@ -57,7 +57,7 @@ use self::{
     texture::Textures,
     unique_names::UniqueNames,
 };
-use super::{Clip, Node, Scene, Warning};
+use super::{Clip, Mesh, Node, Scene, Warning};
 use crate::digest::Digest;
 use crate::progress::Progress;
 
@@ -119,7 +119,7 @@ fn read(
     let skins = skin::load_all(&source, &hierarchy.rank, &mut warnings)?;
     skin::check_roots(&skins, &nodes, &mut warnings);
     skin::bind(&mut nodes, &mut meshes, &skins, &hierarchy, &mut warnings)?;
-    let clips = read_clips(&source, &hierarchy, &nodes, progress, &mut warnings)?;
+    let clips = read_clips(&source, &hierarchy, (&nodes, &meshes), progress, &mut warnings)?;
     instances::expand(&source, &hierarchy.rank, &mut nodes, &mut warnings)?;
     let mut textures = Textures::load(&source, progress, &mut warnings)?;
     let materials = material::load(&source, &mut textures, &mut warnings)?;
@@ -184,7 +184,7 @@ fn shown_scene(root: &Root, options: &OpenOptions, warnings: &mut Vec<Warning>) 
 fn read_clips(
     source: &Source,
     hierarchy: &Hierarchy,
-    nodes: &[Node],
+    shown: (&[Node], &[Mesh]),
     progress: &Progress,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Clip>, Defect> {
@@ -192,7 +192,7 @@ fn read_clips(
     let mut names = UniqueNames::default();
     progress.add_total(animations.len() as u64);
     let clips = animations.iter().enumerate().map(|(index, animation)| {
-        let mut clip = animation::load(source, index, animation, &hierarchy.rank, nodes, warnings)?;
+        let mut clip = animation::load(source, index, animation, &hierarchy.rank, shown, warnings)?;
         clip.name = names.of(clip.name);
         progress.advance(1)?;
         Ok(clip)

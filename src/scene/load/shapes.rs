@@ -1,9 +1,10 @@
 //! The meshes that nodes show: each mesh of the file at its own morph weights, and once more for
-//! every node that gives it others. Static weights are baked.
+//! every node that gives it others, or whose weights a clip moves. Weights are baked; those that move keep what they
+//! displace beside it.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use gltf::json::Root;
+use gltf::json::{Root, animation::Property, validation::Checked};
 use rayon::prelude::*;
 
 use super::{
@@ -24,6 +25,8 @@ pub(super) struct Shapes {
 struct Shape<'a> {
     mesh: usize,
     weights: &'a [f32],
+    /// A clip moves them: one node shows it.
+    moves: bool,
 }
 
 impl Shapes {
@@ -32,7 +35,7 @@ impl Shapes {
         progress.add_total(shapes.len() as u64);
         let results: Vec<Result<mesh::Loaded, Defect>> = (shapes.par_iter())
             .map(|shape| {
-                let loaded = mesh::load(source, shape.mesh, shape.weights)?;
+                let loaded = mesh::load(source, shape.mesh, (shape.weights, shape.moves))?;
                 progress.advance(1)?;
                 Ok(loaded)
             })
@@ -42,10 +45,14 @@ impl Shapes {
         for (index, loaded) in results.into_iter().enumerate() {
             let loaded = loaded?;
             meshes.push(loaded.mesh);
-            // A mesh at other weights has nothing new to say.
+            // A mesh at other weights has nothing new to say, but for what moves.
             if index < source.root.meshes.len() {
                 without_surface += loaded.without_surface;
-                warnings.extend(loaded.warnings);
+            }
+            for warning in loaded.warnings {
+                if !warnings.contains(&warning) {
+                    warnings.push(warning);
+                }
             }
         }
         if without_surface > 0 {
@@ -59,20 +66,33 @@ impl Shapes {
 /// Shape n is mesh n at its own weights, for all meshes of the file; the others follow.
 fn list(root: &Root) -> (Vec<Shape<'_>>, Vec<Option<usize>>) {
     let own = |mesh: usize| root.meshes[mesh].weights.as_deref().unwrap_or_default();
-    let mut shapes: Vec<Shape> = (0..root.meshes.len()).map(|mesh| Shape { mesh, weights: own(mesh) }).collect();
+    let still = |mesh, weights| Shape { mesh, weights, moves: false };
+    let mut shapes: Vec<Shape> = (0..root.meshes.len()).map(|mesh| still(mesh, own(mesh))).collect();
     let mut others: HashMap<(usize, Vec<u32>), usize> = HashMap::new();
-    let by_node = root.nodes.iter().map(|node| {
+    let morphing = morphing_nodes(root);
+    let by_node = root.nodes.iter().enumerate().map(|(index, node)| {
         let mesh = node.mesh?.value();
         let weights = node.weights.as_deref().unwrap_or(own(mesh));
+        if morphing.contains(&index) {
+            shapes.push(Shape { moves: true, ..still(mesh, weights) });
+            return Some(shapes.len() - 1);
+        }
         if weights == own(mesh) {
             return Some(mesh);
         }
         let key = (mesh, weights.iter().map(|weight| weight.to_bits()).collect());
         Some(*others.entry(key).or_insert_with(|| {
-            shapes.push(Shape { mesh, weights });
+            shapes.push(still(mesh, weights));
             shapes.len() - 1
         }))
     });
     let by_node = by_node.collect();
     (shapes, by_node)
+}
+
+/// Nodes of the file whose weights some clip moves.
+fn morphing_nodes(root: &Root) -> HashSet<usize> {
+    let channels = root.animations.iter().flat_map(|animation| &animation.channels);
+    let moved = channels.filter(|channel| channel.target.path == Checked::Valid(Property::MorphTargetWeights));
+    moved.map(|channel| channel.target.node.value()).collect()
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::pyramid::TexturePyramids;
 use crate::progress::Cancelled;
 use crate::scene::{Material, Primitive, TextureRef};
-use crate::settings::VoxelizationMode;
+use crate::settings::{JointWeights, VoxelizationMode};
 
 /// Geometry in lattice cells: the caller has applied stretch, span and phase.
 pub struct VoxelizeInput<'a> {
@@ -13,8 +13,8 @@ pub struct VoxelizeInput<'a> {
     pub materials: &'a [Material],
     pub textures: &'a TexturePyramids,
     pub mode: VoxelizationMode,
-    /// Give every voxel joints and weights.
-    pub with_joints: bool,
+    /// How voxels get joints and weights, if they do.
+    pub joints: Option<JointWeights>,
 }
 
 /// A primitive, its positions in cells and its normals in cache space (any length), one a vertex.

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::data::voxel_cache::{JOINT_WEIGHT_SUM, VoxelJoints};
 use crate::scene::Primitive;
+use crate::settings::JointWeights;
 
 /// A corner's weight of 1, as an integer.
 const WEIGHT_ONE: f64 = 65536.0;
@@ -28,14 +29,24 @@ pub(super) fn unweighted_vertices(primitive: &Primitive) -> u64 {
     primitive.positions.len().saturating_sub(weighted) as u64
 }
 
+/// What each corner of a triangle has to say at barycentric `place`. Of corners that are equally near the first speaks.
+pub(super) fn shares(place: DVec3, weights: JointWeights) -> DVec3 {
+    match weights {
+        JointWeights::Interpolated => place,
+        JointWeights::Flat if place.x >= place.y && place.x >= place.z => DVec3::X,
+        JointWeights::Flat if place.y >= place.z => DVec3::Y,
+        JointWeights::Flat => DVec3::Z,
+    }
+}
+
 impl JointSums {
     pub fn clear(&mut self) {
         self.sums.clear();
     }
 
-    /// Adds the weights interpolated at barycentric `place`, times `weight`.
-    pub fn add(&mut self, primitive: &Primitive, vertices: [u32; 3], place: DVec3, weight: u64) {
-        for (vertex, share) in vertices.into_iter().zip(place.to_array()) {
+    /// Adds the weights of the vertices by their `shares`, times `weight`.
+    pub fn add(&mut self, primitive: &Primitive, vertices: [u32; 3], shares: DVec3, weight: u64) {
+        for (vertex, share) in vertices.into_iter().zip(shares.to_array()) {
             let (joints, weights) = influences(primitive, vertex as usize);
             for (joint, joint_weight) in joints.into_iter().zip(weights) {
                 let amount = weight * (share * f64::from(joint_weight.max(0.0)) * WEIGHT_ONE).round() as u64;
@@ -98,6 +109,17 @@ mod tests {
         assert_eq!(quantized(&[(5, 1), (1, 1), (9, 1)]).weights, [85, 85, 85, 0]);
         let sevenths = quantized(&[(5, 2), (1, 3), (9, 2)]);
         assert_eq!((sevenths.joints, sevenths.weights), ([1, 5, 9, 0], [109, 73, 73, 0]));
+    }
+
+    #[test]
+    fn the_nearest_corner_speaks_alone_where_weights_are_flat() {
+        for (place, nearest) in [([0.5, 0.3, 0.2], DVec3::X), ([0.3, 0.4, 0.3], DVec3::Y), ([0.4, 0.2, 0.4], DVec3::X)]
+        {
+            let place = DVec3::from_array(place);
+            assert_eq!(shares(place, JointWeights::Flat), nearest);
+            assert_eq!(shares(place, JointWeights::Interpolated), place);
+        }
+        assert_eq!(shares(DVec3::new(0.1, 0.2, 0.7), JointWeights::Flat), DVec3::Z);
     }
 
     #[test]

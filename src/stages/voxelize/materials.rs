@@ -19,15 +19,21 @@ pub struct SurfaceMaterials {
 }
 
 impl SurfaceMaterials {
-    /// `brightest`: the unit of emission, nits; 0: nothing emits.
-    pub fn new(scene: &Scene, pyramids: &TexturePyramids, (cells, brightest): (u32, f32)) -> Self {
+    /// `brightest`: the unit of emission, nits; 0: nothing emits. Textures are read of the materials that `is_used`.
+    pub fn new(
+        scene: &Scene,
+        pyramids: &TexturePyramids,
+        (cells, brightest): (u32, f32),
+        is_used: impl Fn(usize) -> bool,
+    ) -> Self {
         let default = Material::default();
-        let materials: Vec<&Material> = scene.materials.iter().chain([&default]).collect();
-        let slots = |material: &Material| {
+        let materials: Vec<(usize, &Material)> = scene.materials.iter().chain([&default]).enumerate().collect();
+        let slots = |(index, material): (usize, &Material)| {
             let base = material.base_color_texture.map(|slot| (slot, Texels::of_base_color(material)));
-            [base, material.emissive_texture.map(|slot| (slot, Texels::Opaque))]
+            let emissive = material.emissive_texture.map(|slot| (slot, Texels::Opaque));
+            [base, emissive].map(|slot| slot.filter(|_| is_used(index)))
         };
-        let read = materials.iter().flat_map(|material| slots(material)).flatten();
+        let read = materials.iter().flat_map(|material| slots(*material)).flatten();
         let read: BTreeSet<(usize, Texels)> = read.map(|(slot, texels)| (slot.texture, texels)).collect();
         let coded = |read: (usize, Texels)| Some((read, pyramids.coded(read.0, read.1, cells as usize)?));
         let coded: Vec<_> = read.into_par_iter().filter_map(coded).collect();
@@ -43,7 +49,7 @@ impl SurfaceMaterials {
             })
         };
         let materials =
-            materials.iter().map(|material| SurfaceMaterial::new(material, brightest, slots(material).map(texture)));
+            materials.iter().map(|material| SurfaceMaterial::new(material.1, brightest, slots(*material).map(texture)));
         // A binding holds at least a word.
         Self { materials: materials.collect(), texels: if texels.is_empty() { vec![0] } else { texels } }
     }

@@ -72,7 +72,7 @@ pub fn voxelize(input: &VoxelizeInput, progress: &Progress) -> Result<VoxelCache
     let report = VoxelizeReport {
         triangles: input.triangle_count(),
         degenerate_triangles: fragments.degenerate_triangles,
-        unweighted_vertices: if input.with_joints { input.parts.iter().map(unweighted).sum() } else { 0 },
+        unweighted_vertices: if input.joints.is_some() { input.parts.iter().map(unweighted).sum() } else { 0 },
     };
     Ok(VoxelCache { report, ..cache })
 }

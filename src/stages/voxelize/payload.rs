@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::clip::Clipper;
 use super::fragments::{Fragment, Fragments, Soup, same_tile, split_key};
-use super::joints::JointSums;
+use super::joints::{self, JointSums};
 use super::surface::{Surface, SurfaceReader};
 use super::triangle::Triangle;
 use super::{VoxelizeInput, VoxelizePart};
@@ -161,7 +161,7 @@ impl<'a> Shader<'a> {
             if emits {
                 run.emission.push(sums.mean_emission());
             }
-            if self.input.with_joints {
+            if self.input.joints.is_some() {
                 run.joints.push(joints.quantized());
             }
         }
@@ -186,8 +186,8 @@ impl<'a> Shader<'a> {
         let [a, b, c] = vertices.map(corner);
         let normal = (a * piece.centroid.x + b * piece.centroid.y + c * piece.centroid.z).normalize_or_zero();
         sums.add(area, weight, &surface, normal);
-        if self.input.with_joints {
-            joints.add(current.part.primitive, vertices, piece.centroid, weight);
+        if let Some(weights) = self.input.joints {
+            joints.add(current.part.primitive, vertices, joints::shares(piece.centroid, weights), weight);
         }
     }
 }

@@ -20,6 +20,9 @@ struct Row {
     discretizer: String,
     cells: Option<String>,
     filter: String,
+    /// What moving does with objects that stretch.
+    #[serde(default)]
+    stretching: Option<String>,
     discretize: Option<Spread>,
     build: Option<Spread>,
     rebuild: Option<Spread>,
@@ -49,8 +52,9 @@ impl Row {
         let median = |spread: &Option<Spread>| or_dash(spread.as_ref(), |spread| three_digits(spread.median_ms));
         let range = |spread: &Spread| format!("{} to {}", three_digits(spread.p5_ms), three_digits(spread.p95_ms));
         let found = self.found.as_ref();
+        let mixed = if self.stretching.as_deref() == Some("voxelize") { ", stretching voxelized" } else { "" };
         vec![
-            format!("{}, {}", self.discretizer, self.cells.as_ref().unwrap_or(&self.filter)),
+            format!("{}, {}{mixed}", self.discretizer, self.cells.as_ref().unwrap_or(&self.filter)),
             or_dash(found, |found| found.voxels.to_string()),
             median(&self.discretize),
             or_dash(self.discretize.as_ref(), range),

@@ -30,10 +30,11 @@ proptest! {
         accuracy: bool,
         rigid in 0_u64..2,
         skinned in 0_u64..2,
+        voxelized in 0_u64..2,
         lights in 0_u32..2,
     ) {
         let digest = |index: u32| Digest::of(&(bits >> index & 1));
-        let scene = SceneFacts { rigid_voxels: rigid, skinned_voxels: skinned, lights, ..RIGID };
+        let scene = SceneFacts { rigid_voxels: rigid, skinned_voxels: skinned, voxelized, lights, ..RIGID };
         let mut settings = Settings::default();
         settings.method.look.view = VIEWS[before];
         let mut held = Held::default();
@@ -43,7 +44,7 @@ proptest! {
         let mut asked = Asked::new(scene, settings);
         asked.contents = Contents {
             caches: digest(0), residents: digest(1), rigid: digest(2), skinned: digest(3), placed: digest(4),
-            lights: digest(5), shadow_maps: digest(6), camera: digest(7), exact: (bits >> 8 == 1).then(other),
+            voxelized: digest(4), lights: digest(5), shadow_maps: digest(6), camera: digest(7), exact: (bits >> 8 == 1).then(other),
         };
         let plan = plan(&[asked], &held);
         let runs = |pass| plan.runs(pass);
@@ -51,6 +52,9 @@ proptest! {
         prop_assert!(!(runs(Pass::GatherNearest) && runs(Pass::GatherSplit)));
         prop_assert_eq!(runs(Pass::MarkLeaves), runs(Pass::AverageNodes));
         prop_assert!(!(runs(Pass::TransformRigid) || runs(Pass::TransformSkinned)) || runs(Pass::MarkLeaves));
+        let moves = runs(Pass::TransformRigid) || runs(Pass::TransformSkinned);
+        prop_assert!(!runs(Pass::JoinVoxels) || (rigid + skinned > 0 && voxelized > 0));
+        prop_assert!(!(moves && runs(Pass::VoxelizeTriangles)) || runs(Pass::JoinVoxels));
         for planned in plan.to_run() {
             for (part, key) in planned.key.inputs() {
                 held_or_before(&plan, &held, (planned.part, part), key)?;

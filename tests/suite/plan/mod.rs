@@ -14,6 +14,7 @@ pub use counted::Counted;
 pub const RIGID: SceneFacts = SceneFacts {
     rigid_voxels: 100,
     skinned_voxels: 0,
+    voxelized: 0,
     triangles: 12,
     lights: 0,
     emissive_voxels: 0,

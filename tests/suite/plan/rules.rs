@@ -115,3 +115,21 @@ fn objects_are_numbered_only_when_looked_at() {
     let plan = changed(&RIGID, &settings, |asked| asked.settings.method.look.color = ColorBy::Object);
     assert_eq!(running(&plan), [Pass::NumberObjects, Pass::MarchVoxels]);
 }
+
+/// Stretching objects are voxelized and all others moved; what does not change of the two is kept.
+#[test]
+fn what_stretches_is_voxelized_beside_what_moves() {
+    let settings = Settings::default();
+    let mixed = SceneFacts { voxelized: 50, ..RIGID };
+    let plan = first(&mixed, &settings);
+    for pass in [Pass::TransformRigid, Pass::VoxelizeTriangles, Pass::JoinVoxels, Pass::MarkLeaves] {
+        assert!(plan.runs(pass), "{pass:?}");
+    }
+    let moved = changed(&mixed, &settings, |asked| asked.contents.rigid = other());
+    assert!(moved.runs(Pass::TransformRigid) && moved.runs(Pass::JoinVoxels) && !moved.runs(Pass::VoxelizeTriangles));
+    let stretched = changed(&mixed, &settings, |asked| asked.contents.voxelized = other());
+    assert!(stretched.runs(Pass::VoxelizeTriangles) && !stretched.runs(Pass::TransformRigid));
+    let alone = first(&SceneFacts { rigid_voxels: 0, ..mixed }, &settings);
+    assert!(alone.runs(Pass::VoxelizeTriangles) && !alone.runs(Pass::JoinVoxels) && !alone.runs(Pass::ObjectIo));
+    assert!(!first(&RIGID, &settings).runs(Pass::JoinVoxels));
+}

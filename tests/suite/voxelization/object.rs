@@ -9,6 +9,7 @@ use octolume::data::packing::unpack_position;
 use octolume::data::voxel_cache::{CacheVoxel, TILE_CELLS, VoxelCache};
 use octolume::progress::Progress;
 use octolume::scene::{Material, Primitive, Texture, TextureRef, Wrap};
+use octolume::settings::JointWeights;
 use octolume::settings::VoxelizationMode::{self, Conservative, Thin};
 use octolume::stages::voxelize::{TexturePyramids, VoxelizeError, VoxelizeInput, VoxelizePart, voxelize};
 
@@ -24,7 +25,7 @@ pub struct Object {
     pub primitive: Primitive,
     pub material: Material,
     pub textures: Vec<Texture>,
-    pub with_joints: bool,
+    pub joints: Option<JointWeights>,
 }
 
 impl Object {
@@ -55,7 +56,7 @@ impl Object {
                 materials: std::slice::from_ref(&self.material),
                 textures: &textures,
                 mode,
-                with_joints: self.with_joints,
+                joints: self.joints,
             },
             progress,
         )

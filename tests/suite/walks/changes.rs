@@ -4,8 +4,8 @@ use glam::DVec3;
 use octolume::scene::OrbitCamera;
 use octolume::settings::lighting::{AddedLight, LightEdit, Opacity, Shadows, SunShines};
 use octolume::settings::{
-    AlphaRule, ColorBy, Discretizer, Filter, Lookup, Sampling, Settings, SliceAxis, SliceValue, ToneCurve, View,
-    VoxelAnchor, VoxelizerCells,
+    AlphaRule, ColorBy, Discretizer, Filter, Lookup, Sampling, Settings, SliceAxis, SliceValue, Stretching, ToneCurve,
+    View, VoxelAnchor, VoxelizerCells,
 };
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
@@ -40,7 +40,7 @@ const LOOKUPS: [Lookup; 3] = [Lookup::Ranks, Lookup::BlockPointers, Lookup::Node
 const SAMPLINGS: [Sampling; 3] = [Sampling::Nearest, Sampling::Trilinear, Sampling::Quadrilinear];
 
 /// What everybody does most comes more than once.
-const CHANGES: [Change; 50] = [
+const CHANGES: [Change; 51] = [
     |s, r| s.method.look.view = one_of(r, &VIEWS),
     |s, r| s.method.look.view = one_of(r, &VIEWS),
     |s, r| s.method.look.color = one_of(r, &COLORS),
@@ -73,6 +73,7 @@ const CHANGES: [Change; 50] = [
     |s, r| s.method.discretization.dense_level = one_of(r, &[None, Some(2), Some(4), Some(6)]),
     |s, r| s.method.discretization.anchor = one_of(r, &[VoxelAnchor::Centre, VoxelAnchor::Corner]),
     |s, r| s.method.discretization.discretizer = one_of(r, &[Discretizer::Transform, Discretizer::Voxelize]),
+    |s, r| s.method.discretization.stretching = one_of(r, &[Stretching::Move, Stretching::Voxelize]),
     |s, r| s.method.discretization.cells = one_of(r, &[VoxelizerCells::Sparse, VoxelizerCells::Dense]),
     |s, r| s.shot.motion.time_secs = between(r, 0.0, 1.2),
     |s, r| s.shot.motion.time_secs = between(r, 0.0, 1.2),

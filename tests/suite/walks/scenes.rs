@@ -14,7 +14,7 @@ use crate::scenes::{at, channel, clip, cube, node, rotation, scaled, sliding_sce
 /// Every scene in every discretization that walks go through.
 pub fn prepared() -> &'static [Arc<Prepared>] {
     static PREPARED: LazyLock<Vec<Arc<Prepared>>> = LazyLock::new(|| {
-        let scenes = [busy(), sliding_scene()].map(Arc::new);
+        let scenes = [busy(), sliding_scene(), stretching()].map(Arc::new);
         let grids = [(64, VoxelizationMode::Thin), (128, VoxelizationMode::Thin), (64, VoxelizationMode::Conservative)];
         let all = scenes.iter().flat_map(|scene| grids.map(|grid| (Arc::clone(scene), grid)));
         all.map(|(scene, (grid, mode))| prepare_one(scene, grid, mode)).collect()
@@ -26,6 +26,16 @@ fn prepare_one(scene: Arc<Scene>, grid: u32, mode: VoxelizationMode) -> Arc<Prep
     let discretization = Discretization { grid, mode, ..Discretization::default() };
     let prepared = prepare(scene, &discretization, None, &Progress::default());
     Arc::new(prepared.unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// The busy scene, whose mirror and glowing box change their size too.
+fn stretching() -> Scene {
+    let mut scene = Scene { name: "stretching".to_owned(), ..busy() };
+    for (node, to) in [(0, [0.6, 1.5, 1.0]), (2, [1.4, 0.5, 1.2])] {
+        let grown = channel(Property::Scale, Interpolation::Linear, &[0.0, 1.0], &[[1.0; 3], to].concat());
+        scene.clips[0].channels.push(octolume::scene::Channel { node, ..grown });
+    }
+    scene
 }
 
 /// A mirror that slides, a floor, a glowing box, a box that bends, two lamps of which one flies.

@@ -45,7 +45,7 @@ impl Piece {
     pub fn bound(self) -> GlbPart {
         let surface = self.shape.shaded(50.0);
         let influences = surface.positions.iter().map(|&point| weights::influence(&(self.rule)(point))).collect();
-        GlbPart { surface, material: self.material, influences }
+        GlbPart { influences, ..GlbPart::new(surface, self.material) }
     }
 }
 

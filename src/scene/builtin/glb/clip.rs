@@ -13,6 +13,9 @@ use crate::scene::builtin::exact::{STEPS, rounded};
 #[derive(Clone, Debug)]
 pub enum Track {
     Translation(Vec<DVec3>),
+    Scale(Vec<DVec3>),
+    /// Key by key, one a morph target.
+    MorphWeights(Vec<f64>),
     Rotation(Vec<DQuat>),
     /// Holds each key until the next.
     SteppedRotation(Vec<DQuat>),
@@ -64,10 +67,15 @@ impl GlbWriter {
 
     fn keys(&mut self, track: Track) -> (Property, Interpolation, Index<Accessor>) {
         let rotations = |keys: Vec<DQuat>| -> Vec<[f32; 4]> { one_hemisphere(keys).into_iter().map(float4).collect() };
+        let vectors = |keys: Vec<DVec3>| -> Vec<[f32; 3]> { keys.into_iter().map(float3).collect() };
         match track {
             Track::Translation(keys) => {
-                let rows: Vec<[f32; 3]> = keys.into_iter().map(float3).collect();
-                (Property::Translation, Interpolation::Linear, self.floats(&rows, None, false))
+                (Property::Translation, Interpolation::Linear, self.floats(&vectors(keys), None, false))
+            }
+            Track::Scale(keys) => (Property::Scale, Interpolation::Linear, self.floats(&vectors(keys), None, false)),
+            Track::MorphWeights(keys) => {
+                let rows: Vec<[f32; 1]> = keys.into_iter().map(|key| [rounded(key, STEPS)]).collect();
+                (Property::MorphTargetWeights, Interpolation::Linear, self.floats(&rows, None, false))
             }
             Track::Rotation(keys) => {
                 (Property::Rotation, Interpolation::Linear, self.floats(&rotations(keys), None, false))

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use glam::{DQuat, DVec3};
 use gltf::binary::{Glb, Header};
 use gltf::json::accessor::{Accessor, ComponentType, GenericComponentType, Type};
-use gltf::json::mesh::{Mode, Primitive, Semantic};
+use gltf::json::mesh::{Mode, MorphTarget, Primitive, Semantic};
 use gltf::json::validation::{Checked::Valid, USize64};
 use gltf::json::{Index, Material, Mesh, Node, Root, Scene, Value, buffer};
 
@@ -38,20 +38,23 @@ pub struct GlbPart {
     pub material: Index<Material>,
     /// One a vertex; empty without a skin.
     pub influences: Vec<Influence>,
+    /// What each morph target displaces positions by, one a vertex.
+    pub targets: Vec<Vec<DVec3>>,
 }
 
 impl GlbPart {
     pub fn new(surface: Surface, material: Index<Material>) -> Self {
-        Self { surface, material, influences: Vec::new() }
+        Self { surface, material, influences: Vec::new(), targets: Vec::new() }
     }
 
     /// What lies to the left (+X) and what lies to the right, by the middle of each triangle; either may be empty.
+    /// Without morph targets.
     pub fn halves(&self) -> [Self; 2] {
         let surface = &self.surface;
         let is_left =
             |triangle: &[u32; 3]| triangle.iter().map(|&at| surface.positions[at as usize].x).sum::<f64>() >= 0.0;
         [true, false].map(|left| {
-            let mut half = Self { surface: Surface::default(), material: self.material, influences: Vec::new() };
+            let mut half = Self::new(Surface::default(), self.material);
             let mut known: BTreeMap<u32, u32> = BTreeMap::new();
             for triangle in surface.triangles.iter().filter(|triangle| is_left(triangle) == left) {
                 let corners = triangle.map(|at| *known.entry(at).or_insert_with(|| half.take(self, at as usize)));
@@ -174,15 +177,21 @@ impl GlbWriter {
             self.root.accessors[weights.value()].normalized = true;
             attributes.extend([(Valid(Semantic::Joints(0)), joints), (Valid(Semantic::Weights(0)), weights)]);
         }
+        let targets: Vec<MorphTarget> = part.targets.iter().map(|moved| self.target(&rows3(moved))).collect();
         Primitive {
             attributes,
             indices: Some(self.indices(&surface.triangles)),
             material: Some(part.material),
             mode: Valid(Mode::Triangles),
-            targets: None,
+            targets: (!targets.is_empty()).then_some(targets),
             extensions: None,
             extras: None,
         }
+    }
+
+    fn target(&mut self, displacements: &[[f32; 3]]) -> MorphTarget {
+        let positions = self.floats(displacements, Some(buffer::Target::ArrayBuffer), true);
+        MorphTarget { positions: Some(positions), normals: None, tangents: None }
     }
 
     /// 16 bits where they suffice.
