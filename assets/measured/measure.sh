@@ -83,6 +83,8 @@ for characters in 1 16 64 256; do
     "$program" make dynamic --characters "$characters" -o "$made/dynamic-$characters.glb"
 done
 
+"$program" make elastic -o "$made/elastic.glb"
+
 for scene in courtyard Sponza.gltf Fox.glb; do
     name=${scene%%.*}
     measure "discretizers-${name,,}.json" bench "$scene" --discretizers --grid 256 --warmup 1 --runs 7
@@ -91,7 +93,16 @@ for characters in 1 16 64 256; do
     measure "discretizers-dynamic-$characters.json" bench "dynamic-$characters.glb" --discretizers --grid 256 --warmup 1 \
         --runs 3
 done
-measure voxels-moving.json accuracy Fox.glb CesiumMan.glb Knight.glb robot.glb mannequiny.glb --grids 128,512
+for scene in Fox CesiumMan robot Knight; do
+    measure "discretizers-${scene,,}-512.json" bench "$scene.glb" --discretizers --grid 512 --time 0.5 --warmup 1 --runs 7
+done
+measure discretizers-elastic.json bench elastic.glb --discretizers --grid 256 --time 0.5 --warmup 1 --runs 7
+measure voxels-moving.json accuracy Fox.glb CesiumMan.glb Knight.glb robot.glb mannequiny.glb --grids 128,512 \
+    --stretching move
+for weights in interpolated flat; do
+    measure "voxels-$weights.json" accuracy Fox.glb CesiumMan.glb --grids 64,256 --times 0.5 --stretching move \
+        --weights "$weights"
+done
 measure voxels-turned.json accuracy Sponza.gltf --turns 0,10,37 --grids 128,512
 measure shadows.json accuracy courtyard Sponza.gltf --lighting --grids 256 --turns 0,37
 measure cones-cornell.json accuracy "${CORNELL_BOX[@]}" --rendering --size 256x256 --samples 256
