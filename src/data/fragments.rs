@@ -21,6 +21,8 @@ use crate::gpu::{Constant, GpuBuffer, Kernel, Mirror, PassBuilder, constants, mi
 pub const FRAGMENT_WORDS: u32 = 6;
 /// Of a fragment's, where something emits.
 pub const EMISSION_WORDS: u32 = 2;
+/// Of a voxel's emission, which has the words of a fragment's.
+pub const EMISSION_BYTES: u64 = 4 * EMISSION_WORDS as u64;
 /// One cell² in units of areas.
 pub const AREA_ONE: u32 = 1 << 20;
 /// Bits of an area: a triangle has at most √2 cells² in a cell.

@@ -221,9 +221,8 @@ impl Method {
         let residents = [&matrices, &of_voxelized].map(|frame| &*frame.resident);
         let facts = facts(prepared, residents, &shot.hidden, settings.method.cone_tracing.glossy_roughness);
         let scene = SceneFacts { lights: lights.len() as u32, picture_px: shot.size_px, ..facts };
-        let voxelized = prepared.placed(&shot.pose, &left_to_each.not_voxelized);
         let lights_and_maps = (&*light_params(prepared, &lights, lighting), &*shadow_maps.maps);
-        let contents = Contents { voxelized, ..contents(prepared, shot, &matrices, lights_and_maps) };
+        let contents = contents(prepared, shot, (&matrices, &left_to_each), lights_and_maps);
         let asked = Asked { scene, settings: settings.clone(), contents, wanted_for };
         let left_out = [&*matrices.left_out, &of_voxelized.left_out].concat();
         Ok(Self { asked, lights, shadow_maps, matrices, left_to_each, left_out })
@@ -238,7 +237,7 @@ pub fn light_params(prepared: &Prepared, lights: &[PosedLight], lighting: &Light
 fn contents(
     prepared: &Prepared,
     shot: &Shot,
-    frame: &FrameMatrices,
+    (frame, left_to_each): (&FrameMatrices, &LeftToEach),
     (lights, shadow_maps): (&[LightParams], &[ShadowParams]),
 ) -> Contents {
     let resident: Vec<u8> = frame.resident.iter().map(|resident| u8::from(*resident)).collect();
@@ -251,7 +250,7 @@ fn contents(
         rigid: bytes(rigid),
         skinned: bytes(skinned),
         placed: shot.placed,
-        voxelized: Digest::default(),
+        voxelized: prepared.placed(&shot.pose, &left_to_each.not_voxelized),
         lights: Digest::of_bytes(&[bytemuck::cast_slice(lights)]),
         shadow_maps: Digest::of_bytes(&[bytemuck::cast_slice(shadow_maps)]),
         camera: Digest::of(&shot.camera),

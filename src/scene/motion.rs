@@ -118,6 +118,10 @@ impl Scene {
             object.stretch = mean.unwrap_or(DMat3::IDENTITY);
         }
         let hidden = (0..objects.len()).filter(|&object| means[object].is_none()).collect();
+        if !span.is_finite() {
+            // In cells that know no end nothing is off by half of one.
+            return MotionReport { objects, hidden, stretching: Vec::new(), morphing: Vec::new() };
+        }
         let stretching = self.strays(&objects, span, clip);
         self.enlarge(&mut objects, &stretching, clip);
         let morphing = self.morphs(&objects, span, clip);

@@ -75,10 +75,9 @@ impl Scene {
         distances.fold(0.0, f64::max)
     }
 
-    /// How far blended joints take the voxels of skins off: index and cells. Nothing is, in cells that know no end.
+    /// How far blended joints take the voxels of skins off: index and cells.
     fn strains(&self, objects: &[Object], span: f64, clip: Option<usize>) -> impl Iterator<Item = (usize, f64)> {
-        let looked_at = if span.is_finite() { objects } else { &[] };
-        let mut strains = Strains::new(self, looked_at, span);
+        let mut strains = Strains::new(self, objects, span);
         if !strains.is_empty() {
             let moments = affordable_moments(self, objects).clamp(LEAST_STRETCH_SAMPLES, MAX_STRETCH_SAMPLES);
             self.for_each_of(moments, clip, |pose| strains.look_at(self, pose));

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Warning {
     pub sentence: String,
     /// What of the file it names; `None` for the file as a whole, and for what is found later.
@@ -13,7 +13,7 @@ pub struct Warning {
 }
 
 /// An item of one of the lists of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FilePart {
     /// `node`, `mesh`, `skin`, `material`, …
     pub kind: &'static str,

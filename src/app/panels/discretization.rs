@@ -51,14 +51,14 @@ fn grid_ui(ui: &mut Ui, wanted: &mut Discretization) {
     let tip = "Cells along an axis, which voxelizes again: memory grows with the square. And which point of a voxel is moved.";
     control(ui, "Grid", tip, |ui| {
         ui.horizontal(|ui| {
-            let combo = ComboBox::from_id_salt("grid").width(76.0).selected_text(format!("{0}³ cells", wanted.grid));
-            let shown = combo.show_ui(ui, |ui| {
+            let grids = ComboBox::from_id_salt("grid").width(76.0).selected_text(format!("{0}³ cells", wanted.grid));
+            let shown = grids.show_ui(ui, |ui| {
                 for grid in Discretization::GRIDS {
                     ui.selectable_value(&mut wanted.grid, grid, format!("{grid}³ cells"));
                 }
             });
             if wanted.discretizer == Discretizer::Transform {
-                combo_of(ui, "Anchor", 50.0, &mut wanted.anchor, &ANCHORS);
+                combo(ui, "Anchor", 50.0, &mut wanted.anchor, &ANCHORS);
             }
             shown.response
         })
@@ -87,8 +87,8 @@ fn cover_ui(ui: &mut Ui, wanted: &mut Discretization) {
     let tip = "Which cells a triangle fills, and which joint weights voxels of skins get. Voxelizes again.";
     control(ui, "Cover", tip, |ui| {
         ui.horizontal(|ui| {
-            combo_of(ui, "Coverage", 76.0, &mut wanted.mode, &MODES);
-            combo_of(ui, "Joint weights", 46.0, &mut wanted.weights, &WEIGHTS);
+            combo(ui, "Coverage", 76.0, &mut wanted.mode, &MODES);
+            combo(ui, "Joint weights", 46.0, &mut wanted.weights, &WEIGHTS);
         })
         .response
     });
@@ -119,7 +119,7 @@ fn to_ui(ui: &mut Ui, to: &mut FitTo) {
     if matches!(current, FitTo::Box { .. }) {
         kinds.push((current, "Box", "A box by its corners, as the command line or the settings say."));
     }
-    combo_of(ui, "Fit to", 60.0, to, &kinds);
+    combo(ui, "Fit to", 60.0, to, &kinds);
 }
 
 fn counted_ui(ui: &mut Ui, counted: &mut Visibility, panel: DiscretizationPanel<'_>) {
@@ -193,12 +193,12 @@ fn discretizer_ui(ui: &mut Ui, wanted: &mut Discretization) {
     ];
     control(ui, "By", "Where the voxels of a frame come from.", |ui| {
         ui.horizontal(|ui| {
-            combo_of(ui, "Discretizer", 70.0, &mut wanted.discretizer, &DISCRETIZERS);
+            combo(ui, "Discretizer", 70.0, &mut wanted.discretizer, &DISCRETIZERS);
             match wanted.discretizer {
                 Discretizer::Transform => {
-                    combo_of(ui, "Stretching objects", 60.0, &mut wanted.stretching, &STRETCHING);
+                    combo(ui, "Stretching objects", 60.0, &mut wanted.stretching, &STRETCHING);
                 }
-                Discretizer::Voxelize => combo_of(ui, "Cells", 60.0, &mut wanted.cells, &CELLS),
+                Discretizer::Voxelize => combo(ui, "Cells", 60.0, &mut wanted.cells, &CELLS),
             }
         })
         .response
@@ -206,6 +206,6 @@ fn discretizer_ui(ui: &mut Ui, wanted: &mut Discretization) {
 }
 
 /// One of few, called what the label says.
-fn combo_of<T: Copy + PartialEq>(ui: &mut Ui, label: &str, width: f32, value: &mut T, all: &[(T, &str, &str)]) {
+fn combo<T: Copy + PartialEq>(ui: &mut Ui, label: &str, width: f32, value: &mut T, all: &[(T, &str, &str)]) {
     unfolding(ui, label, width, value, all).widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, label));
 }

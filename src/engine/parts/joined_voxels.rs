@@ -12,16 +12,13 @@ use super::moving::moving_voxels;
 use super::pages::Pages;
 use super::posed_voxels::PosedVoxels;
 use super::{Made, Making, Parts, Read};
-use crate::data::fragments::{EMISSION_WORDS, FragmentRoom};
+use crate::data::fragments::{EMISSION_BYTES, FragmentRoom};
 use crate::data::octree::Slot;
 use crate::data::pages::{ListedVoxels, WORLD_VOXEL_BYTES, WorkItem};
 use crate::engine::EngineError;
 use crate::gpu::{Gpu, GpuBuffer, GpuError, Recorder};
 use crate::plan::{Part, Pass};
 use crate::stages::transform::PartRecord;
-
-/// Of a voxel.
-const EMISSION_BYTES: u64 = 4 * EMISSION_WORDS as u64;
 
 #[derive(Debug, Default)]
 pub struct JoinedVoxels {

@@ -4,7 +4,7 @@
 use super::columns::Columns;
 use super::materials::Materials;
 use super::{Made, Making, Parts, Read};
-use crate::data::fragments::{FragmentCounts, FragmentRoom};
+use crate::data::fragments::{EMISSION_BYTES, FragmentCounts, FragmentRoom};
 use crate::data::octree::Slot;
 use crate::data::pages::{ListedVoxels, OBJECT_BY_VOXEL, WORK_HINT_THREADS, WORLD_VOXEL_BYTES, WorkItem};
 use crate::engine::EngineError;
@@ -119,7 +119,7 @@ impl Made for PosedVoxels {
         let listed = self.list(gpu)?;
         let voxel_count = self.voxel_count.ensure(gpu, "number of voxels", 4)?;
         let emitting = if emits { self.room.voxels } else { 1 };
-        let emission = self.emission.ensure(gpu, "emission of posed voxels", 8 * u64::from(emitting))?;
+        let emission = self.emission.ensure(gpu, "emission of posed voxels", EMISSION_BYTES * u64::from(emitting))?;
         merge::record(gpu, frame, &store, &listed, (&voxel_count, &emission));
         self.listed = Some(listed);
         Ok(Some((store.counts, 0..size_of::<FragmentCounts>() as u64)))

@@ -41,20 +41,20 @@ impl Shapes {
             })
             .collect();
         let mut meshes = Vec::with_capacity(results.len());
-        let mut without_surface = 0;
+        let (mut without_surface, mut of_others) = (0, Vec::new());
         for (index, loaded) in results.into_iter().enumerate() {
             let loaded = loaded?;
             meshes.push(loaded.mesh);
-            // A mesh at other weights has nothing new to say, but for what moves.
             if index < source.root.meshes.len() {
                 without_surface += loaded.without_surface;
-            }
-            for warning in loaded.warnings {
-                if !warnings.contains(&warning) {
-                    warnings.push(warning);
-                }
+                warnings.extend(loaded.warnings);
+            } else {
+                of_others.extend(loaded.warnings);
             }
         }
+        // A mesh at other weights has little new to say: what its targets do, where they move.
+        let mut said: HashSet<Warning> = warnings.iter().cloned().collect();
+        warnings.extend(of_others.into_iter().filter(|warning| said.insert(warning.clone())));
         if without_surface > 0 {
             let left_out = counted(without_surface, "primitive", "primitives");
             warnings.push(Warning::new(format!("{left_out} left out: points and lines have no surface")));
